@@ -55,9 +55,10 @@ take "$scale" "$((1600 * scale))x$((1000 * scale))" "$folder" "${@:2}"
 
 # Few colours and less size: a guide's picture has 150 kB at most.
 if [[ -n $guide ]]; then
+  take "$scale" "$((1600 * scale))x$((1000 * scale))" "$folder" demo en 1500x940 covered
   for name in welcome import-light running scene-light crop-light refinement-light extrinsic-light \
     extrinsic-2-light response-light camera-page-alone-light exports-light scene-dark check-light plan-light watch-light \
-    model-missing-light model-added-light model-unseen-light; do
+    model-missing-light model-added-light model-unseen-light covered-light; do
     small="$guide/workbench-${name%-light}.png"
     # Thousands of coloured dots do not shrink as well as widgets do.
     width=1100 colors=96

@@ -5265,6 +5265,10 @@ were saved. Take them up again?</source>
             <numerusform>标定板的 %n 个部分</numerusform>
         </translation>
     </message>
+    <message>
+        <source>a part of the board</source>
+        <translation>标定板的一个部分</translation>
+    </message>
 </context>
 <context>
     <name>ModelText</name>
@@ -6658,6 +6662,39 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>on none</source>
         <translation>不重合</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::CloudBrush</name>
+    <message>
+        <source>Brush</source>
+        <translation>刷选</translation>
+    </message>
+    <message>
+        <source>Draw a line about points to select them, at whatever depth. With Shift they are added to those selected</source>
+        <translation>圈住要选中的点，不论远近。按住 Shift 则加入已选中的点</translation>
+    </message>
+    <message>
+        <source>Exclude these</source>
+        <translation>排除所选</translation>
+    </message>
+    <message>
+        <source>Leave out what is selected, in every scene, and solve again</source>
+        <translation>在所有场景中排除所选内容并重新求解</translation>
+    </message>
+    <message>
+        <source>none about a board</source>
+        <translation>都不在标定板附近</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n points</source>
+        <translation>
+            <numerusform>%n 个点</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Only points about a board play a part.</source>
+        <translation>只有标定板附近的点参与求解。</translation>
     </message>
 </context>
 <context>
@@ -9552,6 +9589,10 @@ The intrinsics as given, as estimated with the extrinsic and from images alone, 
         <source>Exclude this part of the board in scene %1</source>
         <translation>在场景 %1 中排除标定板的这一部分</translation>
     </message>
+    <message>
+        <source>Leave it out again</source>
+        <translation>重新排除</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ResultActions</name>
@@ -9690,10 +9731,6 @@ The intrinsics as given, as estimated with the extrinsic and from images alone, 
 <context>
     <name>lvcalib::widgets::SampleMapPlot</name>
     <message>
-        <source>The board from the front with the returns about its circles (of many, some), blue those of the overlap region. Dashed red: circles that are left out in one of the scenes shown; the reasons are in the table below.</source>
-        <translation>标定板正面及圆周围的回波（过多时取一部分），蓝色为重叠区的回波。红色虚线：在所示某个场景中未采用的圆，原因见下表。</translation>
-    </message>
-    <message>
         <source>no data</source>
         <translation>无数据</translation>
     </message>
@@ -9708,6 +9745,14 @@ The intrinsics as given, as estimated with the extrinsic and from images alone, 
     <message>
         <source>circles left out</source>
         <translation>未使用的圆</translation>
+    </message>
+    <message>
+        <source>The board from the front with the returns about its circles (of many, some), blue those of the overlap region. Dashed red: circles that are left out in one of the scenes shown; hatched: where something seems to cover the board; the reasons are in the table below.</source>
+        <translation>标定板正面及圆周围的回波（过多时取一部分），蓝色为重叠区的回波。红色虚线：在所示某个场景中未采用的圆；斜线：标定板似乎被遮挡之处；原因见下表。</translation>
+    </message>
+    <message>
+        <source>covered</source>
+        <translation>被遮挡</translation>
     </message>
 </context>
 <context>
@@ -9966,6 +10011,16 @@ The intrinsics as given, as estimated with the extrinsic and from images alone, 
     <message>
         <source>, </source>
         <translation>、</translation>
+    </message>
+    <message>
+        <source>Part of the board, used all the same</source>
+        <translation>标定板的一部分，仍然使用</translation>
+    </message>
+    <message numerus="yes">
+        <source>Part of the board, %n points left out: %1</source>
+        <translation>
+            <numerusform>标定板的一部分，%n 个点未使用：%1</numerusform>
+        </translation>
     </message>
 </context>
 <context>
@@ -11195,28 +11250,6 @@ The intrinsics as given, as estimated with the extrinsic and from images alone, 
     <message>
         <source>What the colours of the points tell. Lines: every board as the LiDAR (orange) and as the camera sees it (blue), the LiDAR&apos;s axes (x red, y green, z blue), the views of both (pyramids). A click on a board goes to its scene.</source>
         <translation>点的颜色所表示的量。线条：激光雷达所见（橙色）与相机所见（蓝色）的各标定板、激光雷达坐标轴（x 红、y 绿、z 蓝）、两者的视野（棱锥）。单击标定板可转到其场景。</translation>
-    </message>
-    <message>
-        <source>Brush</source>
-        <translation>刷选</translation>
-    </message>
-    <message>
-        <source>Draw a line about points to select them, at whatever depth. With Shift they are added to those selected</source>
-        <translation>圈住要选中的点，不论远近。按住 Shift 则加入已选中的点</translation>
-    </message>
-    <message>
-        <source>Exclude these</source>
-        <translation>排除所选</translation>
-    </message>
-    <message>
-        <source>Leave out what is selected, in every scene, and solve again</source>
-        <translation>在所有场景中排除所选内容并重新求解</translation>
-    </message>
-    <message numerus="yes">
-        <source>%n points</source>
-        <translation>
-            <numerusform>%n 个点</numerusform>
-        </translation>
     </message>
 </context>
 <context>

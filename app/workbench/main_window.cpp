@@ -286,6 +286,13 @@ void MainWindow::connect_pages() {
     }
     workspace_->set_edits({{scene, edits}});
   });
+  connect(pages_, &PageStack::kept_dropped, this, [this](const QString& scene) {
+    SceneEdits edits = decision_of(workspace_->decisions(), scene.toStdString()).edits;
+    edits.kept_tags.clear();
+    edits.kept_circles.clear();
+    edits.kept_patches.clear();
+    workspace_->set_edits({{scene, edits}});
+  });
   connect(pages_, &PageStack::points_excluded, this, [this](const PointsOfScenes& points) {
     std::map<QString, SceneEdits> edits;
     for (const auto& [scene, out] : points) {

@@ -6,6 +6,7 @@
 
 #include "intrinsics/camera_page.h"
 #include "modelling/model_page.h"
+#include "pages/colors_pane.h"
 #include "pages/extrinsic_page.h"
 #include "pages/refinement_page.h"
 #include "pages/response_page.h"
@@ -54,6 +55,7 @@ PageStack::PageStack(QWidget* parent)
             }
           });
   connect(response_, &ResponsePage::keepPatchWanted, this, &PageStack::keep_patch_wanted);
+  connect(response_, &ResponsePage::keptDropped, this, &PageStack::kept_dropped);
   connect(refinement_, &RefinementPage::keepWanted, this, &PageStack::keep_wanted);
   connect(response_, &ResponsePage::insistWanted, this, [this](const QString& name) {
     for (std::size_t s = 0; result_ && s < result_->scenes.size(); ++s) {
@@ -64,6 +66,7 @@ PageStack::PageStack(QWidget* parent)
   connect(refinement_, &RefinementPage::failed, this, &PageStack::failed);
   connect(extrinsic_, &ExtrinsicPage::failed, this, &PageStack::failed);
   connect(extrinsic_->world(), &WorldPane::excludeWanted, this, &PageStack::points_excluded);
+  connect(extrinsic_->colors(), &ColorsPane::excludeWanted, this, &PageStack::points_excluded);
   connect(extrinsic_, &ExtrinsicPage::sceneActivated, this, &PageStack::scene_wanted);
   connect(response_, &ResponsePage::failed, this, &PageStack::failed);
   connect(response_, &ResponsePage::sceneActivated, this, &PageStack::scene_wanted);

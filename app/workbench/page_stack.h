@@ -72,6 +72,8 @@ class PageStack : public QStackedWidget {
   void dataset_changed();
   /// The same of a part of the board, by its number among those refused in the scene.
   void keep_patch_wanted(const QString& scene, int id);
+  /// What the program refused of a scene is to be left out again.
+  void kept_dropped(const QString& scene);
   /// Points are to be left out of several scenes.
   void points_excluded(const lvcalib::widgets::PointsOfScenes& points);
   /// A patch of the board is to be left out of one scene.

@@ -157,8 +157,8 @@ Message make_visible(const Knowledge& known, const std::string& id, const Unseen
   };
   const auto [pose, after] = best_pose(known, t);
   const double before = t(known.now);
-  const Message what = Message("%1 (it could move the extrinsic by %2 mm and %3 mrad)", id,
-                               formatted("%.1f", unseen.extrinsic_move_mm),
+  const Message what = Message("%1 (it could move the extrinsic by %2 mm and %3 mrad)",
+                               effect_named(id), formatted("%.1f", unseen.extrinsic_move_mm),
                                formatted("%.2f", unseen.extrinsic_move_mrad));
   if (after < kWorthwhile * before) {
     return Message("No further scene of this board will show %1; measure instead: %2", what,

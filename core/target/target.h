@@ -43,6 +43,13 @@ struct BoardOutline {
   [[nodiscard]] bool contains(const Eigen::Vector2d& p) const {
     return (p.array() >= lower_left_m.array()).all() && (p.array() <= upper_right_m.array()).all();
   }
+  /// From the lower left one, counterclockwise.
+  [[nodiscard]] std::vector<Eigen::Vector2d> corners_m() const {
+    return {lower_left_m,
+            {upper_right_m.x(), lower_left_m.y()},
+            upper_right_m,
+            {lower_left_m.x(), upper_right_m.y()}};
+  }
   bool operator==(const BoardOutline&) const = default;
 };
 

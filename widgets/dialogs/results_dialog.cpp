@@ -139,7 +139,6 @@ QString results_html(const CalibrationResult& result) {
 }
 
 void ResultsDialog::set_frame_names(const QString& lidar, const QString& camera) {
-  frames_ = {lidar.toStdString(), camera.toStdString()};
   exports_->setFrameNames(lidar, camera);
 }
 

@@ -14,6 +14,7 @@
 #include <limits>
 #include <set>
 
+#include "pages/colors_pane.h"
 #include "pages/methods_pane.h"
 #include "pages/pose_text.h"
 #include "pages/scene_overlay.h"
@@ -23,8 +24,7 @@
 #include "style/texts.h"
 #include "style/unseen.h"
 #include "views/category_plots.h"
-#include "views/cloud_scene_builder.h"
-#include "views/cloud_view.h"
+#include "views/figure_actions.h"
 #include "words/core_text.h"
 
 namespace lvcalib::widgets {
@@ -73,7 +73,9 @@ ExtrinsicPage::ExtrinsicPage(QWidget* parent) : QWidget(parent) {
   connect(world_, &WorldPane::sceneActivated, this, &ExtrinsicPage::activate);
   connect(world_, &WorldPane::failed, this, &ExtrinsicPage::failed);
   tabs_->addTab(world_, {});
-  tabs_->addTab(createCloud(), {});
+  colors_ = new ColorsPane(tabs_);
+  connect(colors_, &ColorsPane::failed, this, &ExtrinsicPage::failed);
+  tabs_->addTab(colors_, {});
   splitter->addWidget(pose_);
   splitter->addWidget(tabs_);
   splitter->setStretchFactor(0, 0);
@@ -206,14 +208,6 @@ void ExtrinsicPage::setScenesError(const Error& error) {
   without_->setText(core_text(error));
 }
 
-QWidget* ExtrinsicPage::createCloud() {
-  cloud_ = new CloudView(tabs_);
-  builder_ = new CloudSceneBuilder(this);
-  connect(builder_, &CloudSceneBuilder::ready, cloud_, &CloudView::setScene);
-  connect(cloud_->figureActions(), &FigureActions::failed, this, &ExtrinsicPage::failed);
-  return cloud_;
-}
-
 void ExtrinsicPage::watch(CategoryPlot* plot) {
   connect(plot, &CategoryPlot::categoryClicked, this, &ExtrinsicPage::activate);
   connect(plot->figureActions(), &FigureActions::failed, this, &ExtrinsicPage::failed);
@@ -234,15 +228,12 @@ void ExtrinsicPage::setResult(std::shared_ptr<const CalibrationResult> result) {
   fillPlots();
   fillInfluence();
   takeThresholds();
-  colourise();
+  colors_->setResult(result_);
 }
 
 void ExtrinsicPage::setSceneData(int scene, std::shared_ptr<const Cloud> full_cloud, QImage image) {
-  scene_ = scene;
-  full_cloud_ = std::move(full_cloud);
-  image_ = std::move(image);
-  world_->setScan(full_cloud_);
-  colourise();
+  world_->setScan(full_cloud);
+  colors_->setSceneData(scene, std::move(full_cloud), std::move(image));
 }
 
 void ExtrinsicPage::changeEvent(QEvent* event) {
@@ -299,20 +290,6 @@ void ExtrinsicPage::fillInfluence() {
   }
   influence_mm_->setBars(std::move(mm), message);
   influence_mrad_->setBars(std::move(mrad), message);
-}
-
-void ExtrinsicPage::colourise() {
-  if (builder_ == nullptr) return;
-  CloudSceneInput input;
-  input.color = CloudColor::kCameraColor;
-  if (result_ && scene_ >= 0 && has_extrinsic(*result_)) {
-    input.full = full_cloud_;
-    input.image = image_;
-    input.target = result_->target;
-    input.camera = result_->camera;
-    input.camera_from_lidar = result_->extrinsic.camera_from_lidar.transform;
-  }
-  builder_->request(std::move(input));
 }
 
 }  // namespace lvcalib::widgets

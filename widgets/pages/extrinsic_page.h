@@ -18,8 +18,7 @@ namespace lvcalib::widgets {
 class BarPlot;
 class BoxPlot;
 class CategoryPlot;
-class CloudSceneBuilder;
-class CloudView;
+class ColorsPane;
 class MethodsPane;
 class ThresholdPane;
 class WorldPane;
@@ -39,7 +38,7 @@ class ExtrinsicPage : public QWidget {
   /// Cloud and image of the scene to show in camera colours.
   void setSceneData(int scene, std::shared_ptr<const Cloud> full_cloud, QImage image);
 
-  [[nodiscard]] CloudView* cloudView() const { return cloud_; }
+  [[nodiscard]] ColorsPane* colors() const { return colors_; }
   [[nodiscard]] WorldPane* world() const { return world_; }
   [[nodiscard]] ThresholdPane* thresholds() const { return thresholds_; }
   /// What the result would be without the scenes above the line.
@@ -62,7 +61,6 @@ class ExtrinsicPage : public QWidget {
 
  private:
   QWidget* createPlots();
-  QWidget* createCloud();
   void retranslate();
   void watch(CategoryPlot* plot);
   void activate(int index);
@@ -71,13 +69,9 @@ class ExtrinsicPage : public QWidget {
   void fillTexts();
   void takeThresholds();
   [[nodiscard]] QStringList scenesBeyond() const;
-  void colourise();
 
   std::shared_ptr<const CalibrationResult> result_;
   bool stale_ = false;  // What is shown is in the words before.
-  std::shared_ptr<const Cloud> full_cloud_;
-  QImage image_;
-  int scene_ = -1;
   QTextBrowser* pose_ = nullptr;
   UncertaintyPane* uncertainty_ = nullptr;
   MethodsPane* methods_ = nullptr;
@@ -93,8 +87,7 @@ class ExtrinsicPage : public QWidget {
   QPushButton* reject_ = nullptr;
   QPushButton* back_ = nullptr;
   WorldPane* world_ = nullptr;
-  CloudView* cloud_ = nullptr;
-  CloudSceneBuilder* builder_ = nullptr;
+  ColorsPane* colors_ = nullptr;
 };
 
 }  // namespace lvcalib::widgets

@@ -17,6 +17,8 @@
 #include <utility>
 
 #include "pages/response_table.h"
+#include "pipeline/refusals.h"
+#include "style/edits_text.h"
 #include "style/texts.h"
 #include "style/unseen.h"
 #include "views/sample_map_plot.h"
@@ -87,11 +89,13 @@ QWidget* ResponsePage::createTables() {
   reasons_->setObjectName("response-reasons");
   reasons_->setOpenLinks(false);
   connect(reasons_, &QTextBrowser::anchorClicked, this, [this](const QUrl& what) {
-    // "scene:NAME", "tag:ID/NAME", "circle:ID/NAME" or "patch:ID/NAME"
+    // "scene:NAME", "back:NAME", "tag:ID/NAME", "circle:ID/NAME" or "patch:ID/NAME"
     const QString path = what.path(QUrl::FullyEncoded);
     const QString name = QUrl::fromPercentEncoding(path.section('/', -1).toUtf8());
     if (what.scheme() == QLatin1String("scene")) {
       Q_EMIT insistWanted(name);
+    } else if (what.scheme() == QLatin1String("back")) {
+      Q_EMIT keptDropped(name);
     } else if (what.scheme() == QLatin1String("patch")) {
       Q_EMIT keepPatchWanted(name, path.section('/', 0, 0).toInt());
     } else {
@@ -229,6 +233,15 @@ void ResponsePage::fillReasons() {
       }
       html += "</li>";
     }
+    // What is used all the same stays in the list that it was taken back from.
+    for (const SceneResult& scene : result_->scenes) {
+      const QString kept = kept_text(scene.edits);
+      if (kept.isEmpty()) continue;
+      const QString name = QString::fromStdString(scene.name);
+      html += QStringLiteral("<li>%1 %2 <a href=\"back:%3\">%4</a></li>")
+                  .arg(tr("Scene %1:").arg(name).toHtmlEscaped(), kept.toHtmlEscaped(),
+                       QString::fromUtf8(QUrl::toPercentEncoding(name)), tr("Leave it out again"));
+    }
   }
   reasons_->setHtml(html.isEmpty() ? "<p>" + tr("Nothing: everything found is used.") + "</p>"
                                    : "<ul>" + html + "</ul>");
@@ -243,6 +256,10 @@ ResponseScope ResponsePage::scopeOf(int row) const {
     if (!all && static_cast<int>(s) + 1 != row) continue;
     scope.scenes.push_back(&response.scenes[s]);
     scope.colors.push_back(static_cast<int>(s));
+    for (const Refusal& refusal : refusals(*result_)) {
+      if (refusal.scene == response.scenes[s].name && refusal.what == Refusal::What::kPatch)
+        scope.covered.push_back({refusal.board_m.min(), refusal.board_m.max()});
+    }
   }
   const auto address = [](const auto& found) { return found ? &*found : nullptr; };
   if (all) {
@@ -269,9 +286,7 @@ void ResponsePage::choosePart(const std::optional<BoardOutline>& part) {
 
 void ResponsePage::excludePart() {
   if (!part_) return;
-  const Eigen::Vector2d& low = part_->lower_left_m;
-  const Eigen::Vector2d& high = part_->upper_right_m;
-  const std::vector<Eigen::Vector2d> patch = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
+  const std::vector<Eigen::Vector2d> patch = part_->corners_m();
   const QString scene = QString::fromStdString(chosen_);
   choosePart(std::nullopt);
   Q_EMIT partExcluded(scene, patch);

@@ -41,6 +41,8 @@ class ResponsePage : public QWidget {
   void keepWanted(const QString& scene, bool tag, int id);
   /// Part of the board, by its number among those refused in the scene.
   void keepPatchWanted(const QString& scene, int id);
+  /// What the program refused of a scene is to be left out again.
+  void keptDropped(const QString& scene);
   /// Returns on a part of the board are to be left out of a scene, or of every one (empty).
   void partExcluded(const QString& scene, const std::vector<Eigen::Vector2d>& patch_m);
 

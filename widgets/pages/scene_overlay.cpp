@@ -19,6 +19,7 @@ constexpr std::array<double, 3> kLidarColor{1.0, 0.6, 0.0};
 constexpr std::array<double, 3> kCameraColor{0.15, 0.55, 1.0};
 constexpr std::array<double, 3> kRefusedColor{1.0, 0.2, 0.2};
 constexpr std::array<double, 3> kLeftOutColor3d{0.75, 0.43, 1.0};
+constexpr std::array<double, 3> kKeptColor{0.15, 0.7, 0.3};
 
 QPointF as_point(const Eigen::Vector2d& p) {
   return {p.x(), p.y()};
@@ -127,6 +128,18 @@ void add_circles(ImageOverlay& overlay, const CalibrationResult& result, const S
   }
 }
 
+void add_parts(ImageOverlay& overlay, const CalibrationResult& result, const SceneResult& scene) {
+  const Rigid3 camera_from_board =
+      result.extrinsic.camera_from_lidar.transform * scene.refinement->lidar_from_board;
+  for (const CoveredPart& part : covered_parts(result, scene)) {
+    std::vector<Eigen::Vector3d> corners;
+    for (const Eigen::Vector2d& p : part.board_m.corners_m())
+      corners.emplace_back(p.x(), p.y(), 0.0);
+    overlay.parts.push_back(
+        {projected(corners, result.camera, camera_from_board), part.reason.empty()});
+  }
+}
+
 std::vector<CloudLine> lidar_axes(double length_m) {
   const Eigen::Vector3d o = Eigen::Vector3d::Zero();
   return {{{o, length_m * Eigen::Vector3d::UnitX()}, {0.9, 0.15, 0.15}, false},
@@ -150,6 +163,17 @@ bool has_extrinsic(const CalibrationResult& result) {
          result.extrinsic.camera_from_lidar.transform.translation.allFinite();
 }
 
+std::vector<CoveredPart> covered_parts(const CalibrationResult& result, const SceneResult& scene) {
+  std::vector<CoveredPart> out;
+  for (const Refusal& refusal : refusals(result)) {
+    if (refusal.scene == scene.name && refusal.what == Refusal::What::kPatch)
+      out.push_back(
+          {{refusal.board_m.min(), refusal.board_m.max()}, refusal.points, refusal.reason});
+  }
+  for (const BoardOutline& kept : scene.edits.kept_patches) out.push_back({kept, 0, {}});
+  return out;
+}
+
 ImageOverlay image_overlay(const CalibrationResult& result, const SceneResult& scene) {
   ImageOverlay overlay;
   if (scene.view) {
@@ -158,7 +182,10 @@ ImageOverlay image_overlay(const CalibrationResult& result, const SceneResult& s
     add_unused_tags(overlay, result, scene.left_out_corners, true);
     add_unused_tags(overlay, result, scene.refused_corners, false);
   }
-  if (scene.refinement && has_extrinsic(result)) add_circles(overlay, result, scene);
+  if (scene.refinement && has_extrinsic(result)) {
+    add_circles(overlay, result, scene);
+    add_parts(overlay, result, scene);
+  }
   return overlay;
 }
 
@@ -233,6 +260,13 @@ std::vector<CloudLine> cloud_lines(const CalibrationResult& result, const SceneR
   if (scene.refinement) {
     add_board(lines, result.target, scene.refinement->lidar_from_board, kLidarColor,
               refused_circles(result, scene));
+    for (const CoveredPart& part : covered_parts(result, scene)) {
+      CloudLine line{{}, part.reason.empty() ? kKeptColor : kRefusedColor, true};
+      for (const Eigen::Vector2d& p : part.board_m.corners_m())
+        line.points_m.emplace_back(scene.refinement->lidar_from_board *
+                                   Eigen::Vector3d(p.x(), p.y(), 0.0));
+      lines.push_back(std::move(line));
+    }
   }
   return lines;
 }

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "camera/cloud_projection.h"
+#include "pages/cloud_brush.h"
 #include "pages/cloud_pane.h"
 #include "pages/image_pane.h"
 #include "pages/scene_overlay.h"
@@ -264,7 +265,8 @@ void ScenePage::selectPoint(std::uint32_t point) {
   sample_pixels_.clear();
   const auto& scene = cloud_->view()->scene();
   if (!scene || !scene->cloud || point >= scene->cloud->size()) return;
-  QString text = describePoint(*scene->cloud, point);
+  QString text =
+      describePoint(*scene->cloud, point) + refusalOfPoint(scene->cloud->points_m[point]);
   std::vector<std::uint32_t> points{point};
   if (picked_ && *picked_ < scene->cloud->size() && *picked_ != point) {
     points.push_back(*picked_);
@@ -316,7 +318,56 @@ QString ScenePage::describePoint(const Cloud& cloud, std::uint32_t point) const 
   return text;
 }
 
+// ", left out: …" of a point that is not used; empty of others.
+QString ScenePage::refusalOfPoint(const Eigen::Vector3f& point_m) const {
+  const SceneResult* scene = current();
+  const auto& shown = cloud_->view()->scene();
+  if (scene == nullptr || !scene->refinement || !shown) return {};
+  const auto among = [&](const std::vector<Eigen::Vector3f>& points) {
+    return std::find(points.begin(), points.end(), point_m) != points.end();
+  };
+  if (among(shown->unused.left_out_m)) return tr(", left out by hand");
+  if (!among(shown->unused.refused_m)) return {};
+  Cloud one;
+  one.points_m = {point_m};
+  for (const CoveredPart& part : covered_parts(*result_, *scene)) {
+    SceneEdits patch;
+    patch.patches_m = {part.board_m.corners_m()};
+    if (!part.reason.empty() &&
+        !left_out_points(one, patch, result_->target, scene->refinement->lidar_from_board).empty())
+      return tr(", left out: %1").arg(core_text(part.reason));
+  }
+  for (const Refusal& refusal : refusals(*result_)) {
+    if (refusal.scene == scene->name && refusal.what == Refusal::What::kPoints)
+      return tr(", left out: %1").arg(core_text(refusal.reason));
+  }
+  return {};
+}
+
+// A part of the board that something seems to cover, with all its points.
+void ScenePage::selectPart(const CoveredPart& part) {
+  const SceneResult& scene = *current();
+  SceneEdits patch;
+  patch.patches_m = {part.board_m.corners_m()};
+  SceneSelection selection;
+  for (const std::uint32_t i : left_out_points(scene.board_points, patch, result_->target,
+                                               scene.refinement->lidar_from_board))
+    selection.points_m.push_back(scene.board_points.points_m[i]);
+  select(std::move(selection), false);
+  selection_->setText(part.reason.empty() ? tr("Part of the board, used all the same")
+                                          : tr("Part of the board, %n points left out: %1", nullptr,
+                                               static_cast<int>(part.points))
+                                                .arg(core_text(part.reason)));
+}
+
 void ScenePage::selectPixel(const QPointF& pixel) {
+  const ImageOverlay& overlay = image_->view()->overlay().overlay();
+  const bool shown = image_->view()->overlay().parts().unused;
+  for (std::size_t k = 0; shown && k < overlay.parts.size(); ++k) {
+    if (!overlay.parts[k].edge.containsPoint(pixel, Qt::OddEvenFill)) continue;
+    selectPart(covered_parts(*result_, *current())[k]);
+    return;
+  }
   const auto& scene = cloud_->view()->scene();
   std::vector<QPointF> places{pixel};
   QString text = tr("Pixel (%1, %2)").arg(pixel.x(), 0, 'f', 1).arg(pixel.y(), 0, 'f', 1);
@@ -392,21 +443,8 @@ void ScenePage::selectCircle(int id) {
 std::vector<Eigen::Vector3f> ScenePage::aboutBoard(const std::vector<std::uint32_t>& points) const {
   const SceneResult* scene = current();
   const auto& shown = cloud_->view()->scene();
-  std::vector<Eigen::Vector3f> out;
-  if (scene == nullptr || !shown || !shown->cloud) return out;
-  const auto key = [](const Eigen::Vector3f& p) {
-    return std::array<float, 3>{p.x(), p.y(), p.z()};
-  };
-  std::set<std::array<float, 3>> wanted;
-  for (const std::uint32_t i : points) {
-    if (i < shown->cloud->size()) wanted.insert(key(shown->cloud->points_m[i]));
-  }
-  for (const Cloud* part : {&scene->board_points, &scene->left_out_points}) {
-    for (const Eigen::Vector3f& p : part->points_m) {
-      if (wanted.contains(key(p))) out.push_back(p);
-    }
-  }
-  return out;
+  if (scene == nullptr || !shown || !shown->cloud) return {};
+  return points_about_board(*scene, *shown->cloud, points);
 }
 
 void ScenePage::brushPoints(const std::vector<std::uint32_t>& points, bool add) {

@@ -137,10 +137,8 @@ std::vector<int> SelectionBar::keepable(Refusal::What what) const {
 }
 
 bool SelectionBar::holdsSelected(const BoardOutline& part) const {
-  const Eigen::Vector2d& low = part.lower_left_m;
-  const Eigen::Vector2d& high = part.upper_right_m;
   SceneEdits one;
-  one.patches_m = {{low, {high.x(), low.y()}, high, {low.x(), high.y()}}};
+  one.patches_m = {part.corners_m()};
   return !left_out_of(selection_.points_m, one, *result_, *scene_).empty();
 }
 

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pages/world_pane.h"
 
-#include <QAction>
 #include <QComboBox>
 #include <QEvent>
-#include <QLabel>
-#include <QToolButton>
 #include <QVBoxLayout>
-#include <set>
 
 #include <Eigen/Geometry>
 
@@ -30,16 +26,9 @@ WorldPane::WorldPane(QWidget* parent)
   bar->addWidget(color_);
   bar->addSeparator();
   for (QAction* action : view_->viewActions()) bar->addTool(action);
-  brush_ = bar->newTool();
-  brush_->setObjectName(QStringLiteral("world-brush"));
-  brush_->setCheckable(true);
-  brush_->setEnabled(view_->hasOpenGl());
-  text_ = new QLabel(bar);
-  text_->setObjectName(QStringLiteral("world-selection"));
-  exclude_ = new QToolButton(bar);
-  exclude_->setObjectName(QStringLiteral("world-exclude"));
-  bar->addWidget(text_);
-  bar->addWidget(exclude_);
+  brush_ =
+      new CloudBrush(view_, bar, QStringLiteral("world"),
+                     [this](const std::vector<std::uint32_t>& points) { return byScene(points); });
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 4, 0, 0);
   layout->setSpacing(2);
@@ -52,12 +41,7 @@ WorldPane::WorldPane(QWidget* parent)
     if (boards_ && point < boards_->line.size())
       Q_EMIT sceneActivated(static_cast<int>(boards_->line[point]) - 1);
   });
-  connect(brush_, &QAction::toggled, this, [this](bool on) {
-    view_->setBrushing(on);
-    if (!on) select({}, false);
-  });
-  connect(view_, &CloudView::pointsBrushed, this, &WorldPane::select);
-  connect(exclude_, &QToolButton::clicked, this, &WorldPane::exclude);
+  connect(brush_, &CloudBrush::excludeWanted, this, &WorldPane::excludeWanted);
   follow_language(this, [this] { retranslate(); });
 }
 
@@ -73,40 +57,22 @@ void WorldPane::retranslate() {
       tr("What the colours of the points tell. Lines: every board as the LiDAR (orange) and as the "
          "camera sees it (blue), the LiDAR's axes (x red, y green, z blue), the views of both "
          "(pyramids). A click on a board goes to its scene."));
-  brush_->setText(tr("Brush"));
-  brush_->setToolTip(
-      tr("Draw a line about points to select them, at whatever depth. With Shift they are added to "
-         "those selected"));
-  exclude_->setText(tr("Exclude these"));
-  exclude_->setToolTip(tr("Leave out what is selected, in every scene, and solve again"));
-  select(selected_, false);
   rebuild();
 }
 
-void WorldPane::select(const std::vector<std::uint32_t>& points, bool add) {
-  std::set<std::uint32_t> all(points.begin(), points.end());
-  if (add) all.insert(selected_.begin(), selected_.end());
-  selected_.assign(all.begin(), all.end());
-  view_->setHighlights(selected_);
-  const bool any = !selected_.empty();
-  text_->setText(any ? tr("%n points", nullptr, static_cast<int>(selected_.size())) : QString());
-  text_->setVisible(any);
-  exclude_->setVisible(any);
-}
-
-void WorldPane::exclude() {
+PointsOfScenes WorldPane::byScene(const std::vector<std::uint32_t>& points) const {
   PointsOfScenes out;
-  for (const std::uint32_t i : selected_) {
+  for (const std::uint32_t i : points) {
     const std::size_t scene = boards_->line[i] - 1U;
     out[QString::fromStdString(result_->scenes[scene].name)].push_back(boards_->points_m[i]);
   }
-  Q_EMIT excludeWanted(out);
+  return out;
 }
 
 void WorldPane::setResult(std::shared_ptr<const CalibrationResult> result) {
   result_ = std::move(result);
   boards_ = result_ ? std::make_shared<const Cloud>(all_boards(*result_)) : nullptr;
-  select({}, false);  // Points of another result.
+  brush_->clear();  // Points of another result.
   view_->setLines(result_ ? world_lines(*result_, lidar_) : std::vector<CloudLine>());
   rebuild();
 }

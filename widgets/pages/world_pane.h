@@ -2,25 +2,19 @@
 #pragma once
 
 #include <QWidget>
-#include <map>
 #include <memory>
 #include <vector>
 
 #include "cloud/field_of_view.h"
+#include "pages/cloud_brush.h"
 #include "pipeline/calibration.h"
 
-class QAction;
 class QComboBox;
-class QLabel;
-class QToolButton;
 
 namespace lvcalib::widgets {
 
 class CloudSceneBuilder;
 class CloudView;
-
-/// Points of several scenes (LiDAR frame), by the scenes' names.
-using PointsOfScenes = std::map<QString, std::vector<Eigen::Vector3f>>;
 
 /// All scenes in one world, about the rig that does not move: the boards' points, every board as
 /// either sensor sees it, the LiDAR's axes and the pyramids of both views. A click on a board goes
@@ -51,19 +45,15 @@ class WorldPane : public QWidget {
  private:
   void retranslate();
   void rebuild();
-  void select(const std::vector<std::uint32_t>& points, bool add);
-  void exclude();
+  [[nodiscard]] PointsOfScenes byScene(const std::vector<std::uint32_t>& points) const;
 
   std::shared_ptr<const CalibrationResult> result_;
   std::shared_ptr<const Cloud> boards_;
   FieldOfView lidar_;
   CloudView* view_;
   CloudSceneBuilder* builder_ = nullptr;
-  std::vector<std::uint32_t> selected_;  // Places in boards_.
   QComboBox* color_;
-  QAction* brush_;
-  QLabel* text_;
-  QToolButton* exclude_;
+  CloudBrush* brush_;
 };
 
 }  // namespace lvcalib::widgets

@@ -16,6 +16,9 @@ QString ids_text(const std::vector<int>& ids);
 /// empty if nothing.
 QString edits_text(const SceneResult& scene);
 
+/// What the user has used all the same of a scene, in a sentence; empty if nothing.
+QString kept_text(const SceneEdits& edits);
+
 /// What the program refused of a scene that takes part, in a sentence; empty if nothing.
 QString refusals_text(const CalibrationResult& result, const std::string& scene);
 

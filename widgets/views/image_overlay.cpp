@@ -117,7 +117,10 @@ void OverlayItem::paint(QPainter* painter, const QStyleOptionGraphicsItem* optio
   const double scale = option->levelOfDetailFromTransform(painter->worldTransform());
   painter->setRenderHint(QPainter::Antialiasing);
   if (parts_.points) paintPoints(*painter, option->exposedRect);
-  if (parts_.unused) paintUnusedPoints(*painter, scale);
+  if (parts_.unused) {
+    paintUnusedPoints(*painter, scale);
+    paintParts(*painter);
+  }
   if (parts_.circles) paintCircles(*painter, scale);
   if (parts_.tags) paintTags(*painter, scale);
   if (parts_.residuals) paintResiduals(*painter, scale);
@@ -163,6 +166,16 @@ void OverlayItem::paintUnusedPoints(QPainter& painter, double scale) const {
   };
   crosses(overlay_.refused_points, kUnusedColor);
   crosses(overlay_.left_out_points, kLeftOutColor);
+}
+
+void OverlayItem::paintParts(QPainter& painter) const {
+  painter.setBrush(Qt::NoBrush);
+  for (const ImageOverlay::Part& part : overlay_.parts) {
+    QPen pen = cosmetic(painter, part.used ? kTagColor : kUnusedColor, 1.8);
+    pen.setStyle(Qt::DashLine);
+    painter.setPen(pen);
+    painter.drawPolygon(part.edge);
+  }
 }
 
 void OverlayItem::paintTags(QPainter& painter, double scale) const {

@@ -43,6 +43,12 @@ struct ImageOverlay {
   /// LiDAR points that the program refused, and that the user left out; drawn as crosses.
   std::vector<QPointF> refused_points;
   std::vector<QPointF> left_out_points;
+  /// Part of the board that something seems to cover.
+  struct Part {
+    QPolygonF edge;
+    bool used = false;  ///< All the same.
+  };
+  std::vector<Part> parts;
   struct Outline {
     QPolygonF points;
     QRgb color = 0;
@@ -57,7 +63,7 @@ struct OverlayParts {
   bool residuals = true;
   bool circles = true;
   bool points = false;
-  bool unused = true;  ///< LiDAR points that are not used.
+  bool unused = true;  ///< LiDAR points and parts of the board that are not used.
 };
 
 /// Draws an overlay; its scene coordinates are image pixels. Lines keep their width on the screen.
@@ -85,6 +91,7 @@ class OverlayItem : public QGraphicsItem {
  private:
   void paintPoints(QPainter& painter, const QRectF& visible) const;
   void paintUnusedPoints(QPainter& painter, double scale) const;
+  void paintParts(QPainter& painter) const;
   void paintTags(QPainter& painter, double scale) const;
   void paintResiduals(QPainter& painter, double scale) const;
   void paintCircles(QPainter& painter, double scale) const;

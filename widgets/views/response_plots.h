@@ -13,7 +13,8 @@ namespace lvcalib::widgets {
 /// are borrowed and must stay until other ones are set.
 struct ResponseScope {
   std::vector<const SceneResponse*> scenes;
-  std::vector<int> colors;  ///< Of each scene: its place in PlotColors::series().
+  std::vector<int> colors;            ///< Of each scene: its place in PlotColors::series().
+  std::vector<BoardOutline> covered;  ///< Parts of their boards that something seems to cover.
   const TransitionFit* transition = nullptr;
   const ResponseStatistics* statistics = nullptr;
   Message reason;  ///< Why there are no statistics; empty otherwise.

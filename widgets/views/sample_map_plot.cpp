@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/units.h"
+#include "style/swatch.h"
 #include "style/texts.h"
 #include "words/core_text.h"
 
@@ -17,10 +18,11 @@ constexpr std::size_t kMostMapDots = 12'000;
 SampleMapPlot::SampleMapPlot(QWidget* parent) : BoardFigure(parent) {
   figureActions()->setName("boundary-samples");
   follow_language(this, [this] {
-    setToolTip(
-        tr("The board from the front with the returns about its circles (of many, some), blue "
-           "those of the overlap region. Dashed red: circles that are left out in one "
-           "of the scenes shown; the reasons are in the table below."));
+    setToolTip(tr(
+        "The board from the front with the returns about its circles (of many, some), blue "
+        "those of the overlap region. Dashed red: circles that are left out in one "
+        "of the scenes shown; hatched: where something seems to cover the board; the reasons are "
+        "in the table below."));
   });
   connect(selectionRect(), &QCPSelectionRect::accepted, this, [this](const QRect& rect) {
     const QRect r = rect.normalized();
@@ -50,6 +52,8 @@ void SampleMapPlot::rebuild() {
   drawOutlines([this](const TargetNode& node) {
     return isRefused(node.id) ? QPen(colors().refused, 1.8, Qt::DashLine) : QPen(colors().axis);
   });
+  for (const BoardOutline& part : scope_.covered)
+    drawRectangle(part.lower_left_m, part.upper_right_m, hatched(colors().refused));
   if (part_) {
     QColor marked = colors().emphasis;
     marked.setAlpha(60);
@@ -76,6 +80,7 @@ void SampleMapPlot::rebuild() {
   if (std::any_of(nodes.begin(), nodes.end(),
                   [&](const TargetNode& node) { return isRefused(node.id); }))
     entries.push_back({Sign::kDashed, colors().refused, tr("circles left out")});
+  if (!scope_.covered.empty()) entries.push_back({Sign::kBox, colors().refused, tr("covered")});
   if (!samples.empty()) showLegend(std::move(entries));
   if (samples.empty())
     showMessage(scope_.reason.empty() ? tr("no data") : core_text(scope_.reason));

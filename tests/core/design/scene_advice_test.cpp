@@ -70,6 +70,24 @@ TEST(AdviseScenes, NamesAPoseThatShowsWhatIsUnseen) {
   }
 }
 
+// A window says the title of an effect, not what one types for it.
+TEST(AdviseScenes, NamesEffectsSoThatTheyCanBeTranslated) {
+  const auto made = test::synthetic_table({});
+  const DiscoveryOptions options;
+  const RunContext context;
+  EffectSearch search(made.table, made.truth, options, context);
+  search.rank();
+  const auto findings = judge_effects(search, {}, options);
+  int named = 0;
+  for (const Message& advice : advise_scenes(scenes_taken(search), open_questions(search, findings),
+                                             options.grid, context)) {
+    if (!advice.text().starts_with("To see whether there is ")) continue;
+    ++named;
+    EXPECT_TRUE(advice.arguments()[0].arguments()[0].translatable()) << advice.text();
+  }
+  EXPECT_GT(named, 0);
+}
+
 TEST(AdviseScenes, StopsWhenAsked) {
   const auto made = test::synthetic_table({});
   const DiscoveryOptions options;

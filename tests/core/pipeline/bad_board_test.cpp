@@ -12,6 +12,7 @@
 #include "pipeline/calibration.h"
 #include "pipeline/dataset.h"
 #include "simulation/dataset_writer.h"
+#include "support/covered_board.h"
 #include "support/ordinary_boards.h"
 #include "support/simulated_dataset.h"
 
@@ -35,53 +36,13 @@ std::ostream& operator<<(std::ostream& out, const Spoiled& s) {
   return out << s.name;
 }
 
-// Calls with every point's place on the board, where it is on or before the board.
-void for_board_points(
-    SimulatedScene& scene, const Target& target,
-    const std::function<void(const Eigen::Vector2d&, Eigen::Vector3f&, float&)>& change) {
-  const Rigid3 board_from_lidar = scene.lidar_from_board.inverse();
-  const BoardOutline outline = target.outline();
-  for (std::size_t i = 0; i < scene.cloud.size(); ++i) {
-    const Eigen::Vector3d p = board_from_lidar * scene.cloud.points_m[i].cast<double>().eval();
-    if (std::abs(p.z()) > 0.05) continue;
-    const Eigen::Vector2d at = p.head<2>();
-    if ((at - outline.lower_left_m).minCoeff() < 0.0 ||
-        (outline.upper_right_m - at).minCoeff() < 0.0)
-      continue;
-    change(at, scene.cloud.points_m[i], scene.cloud.intensity[i]);
-  }
-}
-
 // A grey sheet over the right part of every board, 30 cm nearer.
 void cover(SimulatedRig& rig, double share) {
-  const BoardOutline outline = rig.target.outline();
-  const double from = outline.upper_right_m.x() - share * outline.size_m().x();
-  for (SimulatedScene& scene : rig.scenes) {
-    for_board_points(scene, rig.target,
-                     [&](const Eigen::Vector2d& at, Eigen::Vector3f& p, float& i) {
-                       if (at.x() < from) return;
-                       p *= (p.norm() - 0.3F) / p.norm();
-                       i = 40.0F;
-                     });
-    const Rigid3 board_from_camera = scene.camera_from_board.inverse();
-    for (int y = 0; y < scene.image.height_px; ++y) {
-      for (int x = 0; x < scene.image.width_px; ++x) {
-        const auto ray = rig.camera.unproject(Eigen::Vector2d(x, y));
-        if (!ray) continue;
-        const Eigen::Vector3d d = board_from_camera.rotation * *ray;
-        const Eigen::Vector3d p =
-            board_from_camera.translation - board_from_camera.translation.z() / d.z() * d;
-        const bool inside = p.x() > from && p.x() < outline.upper_right_m.x() + 0.05 &&
-                            p.y() > outline.lower_left_m.y() - 0.05 &&
-                            p.y() < outline.upper_right_m.y() + 0.05;
-        if (inside) {
-          scene.image
-              .pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.image.width_px) +
-                      static_cast<std::size_t>(x)] = 90;
-        }
-      }
-    }
-  }
+  BoardOutline part = rig.target.outline();
+  part.lower_left_m.x() = part.upper_right_m.x() - share * part.size_m().x();
+  part.lower_left_m.y() -= 0.05;
+  part.upper_right_m.array() += 0.05;
+  for (std::size_t k = 0; k < rig.scenes.size(); ++k) test::cover_part(rig, k, part, 0.3F);
 }
 
 void change_intensities(SimulatedRig& rig, const std::function<float(float)>& change) {
@@ -109,9 +70,10 @@ void some_without_intensity(SimulatedRig& rig) {
 void white_board(SimulatedRig& rig) {
   Random random(5);
   for (SimulatedScene& scene : rig.scenes) {
-    for_board_points(scene, rig.target, [&](const Eigen::Vector2d&, Eigen::Vector3f&, float& i) {
-      i = static_cast<float>(110.0 + 4.0 * random.normal());
-    });
+    test::for_board_points(scene, rig.target.outline(),
+                           [&](const Eigen::Vector2d&, Eigen::Vector3f&, float& i) {
+                             i = static_cast<float>(110.0 + 4.0 * random.normal());
+                           });
   }
 }
 // A second copy of the board beside the first, which the camera does not see.
@@ -121,10 +83,11 @@ void second_board(SimulatedRig& rig) {
     const Eigen::Vector3f shift =
         (scene.lidar_from_board.rotation * Eigen::Vector3d(step, 0.0, 0.0)).cast<float>();
     Cloud more;
-    for_board_points(scene, rig.target, [&](const Eigen::Vector2d&, Eigen::Vector3f& p, float& i) {
-      more.points_m.push_back(p + shift);
-      more.intensity.push_back(i);
-    });
+    test::for_board_points(scene, rig.target.outline(),
+                           [&](const Eigen::Vector2d&, Eigen::Vector3f& p, float& i) {
+                             more.points_m.push_back(p + shift);
+                             more.intensity.push_back(i);
+                           });
     Cloud& cloud = scene.cloud;
     for (std::size_t k = 0; k < more.size(); ++k) {
       cloud.points_m.push_back(more.points_m[k]);

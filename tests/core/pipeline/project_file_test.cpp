@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/project_file.h"
 
+#include <fstream>
+#include <iterator>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -96,6 +99,21 @@ TEST(ProjectFile, EditsThatMakeNoSenseAreRefusedWithTheirLine) {
     EXPECT_THAT(read.error().text(), HasSubstr(expected));
     EXPECT_THAT(read.error().text(), HasSubstr("p.lvcalib:7"));
   }
+}
+
+TEST(ProjectFile, TheGuidesExampleIsAProject) {
+  std::ifstream file(LVCALIB_SOURCE_DIR "/resources/guide/files.md");
+  const std::string guide{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t from = guide.find("```yaml\nformat: lvcalib-project") + 8;
+  const auto read =
+      project_from_text(guide.substr(from, guide.find("```", from) - from), "files.md");
+  ASSERT_TRUE(read.ok()) << read.error().text();
+  const SceneEdits& edits = read->project.decisions.scenes.at("C").edits;
+  EXPECT_EQ(edits.kept_patches, (std::vector<BoardOutline>{{{0.46, -0.06}, {0.61, 0.51}}}));
+  EXPECT_EQ(edits.patches_m.size(), 1U);
+  EXPECT_EQ(edits.points_m.size(), 1U);
+  EXPECT_EQ(edits.kept_tags, std::vector<int>{7});
+  EXPECT_EQ(edits.circles, std::vector<int>{0});
 }
 
 TEST(ProjectFile, MovesTogetherWithItsDataset) {

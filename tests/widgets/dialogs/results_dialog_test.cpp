@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dialogs/results_dialog.h"
 
+#include <QListWidget>
+#include <QPlainTextEdit>
+#include <QPushButton>
+#include <QTemporaryDir>
 #include <QTextDocument>
 #include <numbers>
 
 #include <gtest/gtest.h>
+
+#include "base/file_io.h"
 
 namespace lvcalib::widgets::results_dialog_test {
 namespace {
@@ -41,6 +47,45 @@ TEST(ResultsDialog, TheMatrixHasItsRowsInOrder) {
   ASSERT_EQ(rows.size(), 4);
   EXPECT_EQ(rows[0].simplified(), "0.70710678 -0.70710678 0.00000000 0.10000000");
   EXPECT_EQ(rows[3].simplified(), "0.00000000 0.00000000 0.00000000 1.00000000");
+}
+
+class Answers : public Choices {
+ public:
+  QString save;
+  QString file_to_export(QWidget*, const QString&, const QString&) override { return save; }
+};
+
+// What the user calls the frames stands in everything that the window hands on.
+TEST(ResultsDialog, EveryExportHasTheUsersNamesOfTheFrames) {
+  auto result = std::make_shared<CalibrationResult>(example());
+  result->camera.fx = result->camera.fy = 800.0;
+  result->camera.width_px = 1000;
+  result->camera.height_px = 640;
+  const QTemporaryDir folder;
+  Answers answers;
+  auto* dialog = new ResultsDialog(result, answers, folder.path(), nullptr);
+  dialog->set_frame_names("velo_x", "front_y");
+  for (const char* suffix : {"json", "yaml"}) {
+    answers.save = folder.filePath(QStringLiteral("result.") + suffix);
+    dialog->findChild<QPushButton*>(QStringLiteral("export_") + suffix)->click();
+    const auto text = read_text_file(answers.save.toStdString(), 1 << 20);
+    ASSERT_TRUE(text.ok()) << suffix;
+    EXPECT_NE(text->find("velo_x"), std::string::npos) << suffix;
+    EXPECT_NE(text->find("front_y"), std::string::npos) << suffix;
+  }
+  auto* formats = dialog->findChild<QListWidget*>("formats");
+  auto* preview = dialog->findChild<QPlainTextEdit*>("preview");
+  int seen = 0;
+  for (int row = 0; row < formats->count(); ++row) {
+    formats->setCurrentRow(row);
+    if (preview->toPlainText().isEmpty()) continue;  // Needs what this result has not.
+    ++seen;
+    for (const char* name : {"velo_x", "front_y"})
+      EXPECT_TRUE(preview->toPlainText().contains(name))
+          << formats->item(row)->text().toStdString();
+  }
+  EXPECT_GT(seen, 8);
+  delete dialog;
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "pages/colors_pane.h"
 #include "views/category_plots.h"
 #include "views/cloud_view.h"
 #include "widgets/support/calibrated_demo.h"
@@ -111,9 +112,11 @@ TEST_F(ExtrinsicPageTest, ColourisesTheCloud) {
   page_.setResult(demo_.result);
   page_.setSceneData(0, demo_.clouds[0], demo_.images[0]);
   ASSERT_TRUE(QTest::qWaitFor(
-      [&] { return page_.cloudView()->scene() && page_.cloudView()->scene()->size() > 0; },
+      [&] {
+        return page_.colors()->view()->scene() && page_.colors()->view()->scene()->size() > 0;
+      },
       10'000));
-  EXPECT_FALSE(page_.cloudView()->scene()->has_scale);
+  EXPECT_FALSE(page_.colors()->view()->scene()->has_scale);
 }
 
 TEST_F(ExtrinsicPageTest, TwoScenesHaveNoInfluenceAndNoResultIsSaid) {

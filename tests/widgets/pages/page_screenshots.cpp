@@ -13,6 +13,7 @@
 #include <functional>
 
 #include "pages/cloud_pane.h"
+#include "pages/colors_pane.h"
 #include "pages/extrinsic_page.h"
 #include "pages/image_pane.h"
 #include "pages/refinement_page.h"
@@ -107,7 +108,7 @@ void photograph(Photographer& photographer, const test::CalibratedDemo& demo) {
   photographer.take(extrinsic, "extrinsic-uncertainty", at_once);
   tabs->setCurrentIndex(3);
   photographer.take(extrinsic, "extrinsic-cloud", [&] {
-    return extrinsic.cloudView()->scene() && drawn(*extrinsic.cloudView());
+    return extrinsic.colors()->view()->scene() && drawn(*extrinsic.colors()->view());
   });
   ResponsePage response;
   response.setResult(demo.result);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE] [WIDTHxHEIGHT] [quick|model|opened
-// [dark]]. Opens a dataset (without one: the demo), runs it and writes a picture of every page and
-// dialog to the folder, in light and dark; quick: in one of both; model: of the Model page
-// alone; opened: of the window before and after the run.
-// The size is the window's.
+// Usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE] [WIDTHxHEIGHT] [quick|model|opened|
+// covered [dark]]. Opens a dataset (without one: the demo), runs it and writes a picture of every
+// page and dialog to the folder, in light and dark; quick: in one of both; model: of the Model page
+// alone; opened: of the window before and after the run; covered: of the demo with a post before
+// one of its boards. The size is the window's.
 
 #include <QApplication>
 #include <QComboBox>
@@ -29,11 +29,15 @@
 #include "modelling/residual_plot.h"
 #include "pipeline/refusals.h"
 #include "report/result_file.h"
+#include "runner/demo.h"
+#include "simulation/dataset_writer.h"
 #include "start/coach_marks.h"
+#include "support/covered_board.h"
 #include "tools/check_dialog.h"
 #include "tools/compare_dialog.h"
 #include "tools/plan_dialog.h"
 #include "tools/watch_window.h"
+#include "views/cloud_view.h"
 #include "widgets/importing/recorded_walk.h"
 #include "widgets/support/driver.h"
 
@@ -378,12 +382,56 @@ void photograph_last_bubble(widgets::MainWindow& window, Photographer& camera) {
   if (wait_for_model(window)) camera.take(QStringLiteral("tour-%1").arg(coach->current() + 1));
 }
 
+// A post before a board: what is refused, and with all of it used all the same.
+int photograph_covered(widgets::MainWindow& window, Photographer& camera, const QString& theme) {
+  const QTemporaryDir folder;
+  const QString dataset = folder.filePath(QStringLiteral("covered"));
+  auto rig = simulation::simulate(widgets::demo_options(), {});
+  if (!rig) return 1;
+  BoardOutline post = rig->target.outline();
+  post.lower_left_m += Eigen::Vector2d(0.57, -0.05);
+  post.upper_right_m = post.lower_left_m + Eigen::Vector2d(0.06, 0.62);
+  test::cover_part(*rig, 1, post, 0.06F);
+  if (!simulation::write_dataset(*rig, dataset.toStdString()).ok()) return 1;
+  window.open(dataset);
+  if (!test::wait_until([&] { return window.workspace().is_open(); })) return 1;
+  test::trigger(window, "run");
+  if (!test::wait_for_result(window)) return 1;
+  choose(window, "theme", theme);
+  auto* tabs = test::find<QTabWidget>(window, "pages");
+  const auto take = [&](const char* state) {
+    const auto name = [&](const char* part) {
+      return QStringLiteral("%1%2-%3").arg(QLatin1String(state), QLatin1String(part), theme);
+    };
+    test::click_scene(window, QStringLiteral("B"), false);
+    tabs->setCurrentIndex(0);
+    tabs->currentWidget()->findChild<widgets::CloudView*>()->look(widgets::CloudViewpoint::kBoard);
+    QTest::qWait(1500);
+    camera.take(name(""));
+    tabs->setCurrentIndex(1);
+    camera.take(name("-refinement"));
+    tabs->setCurrentIndex(3);
+    tabs->currentWidget()->findChild<QTabWidget*>()->setCurrentIndex(2);
+    camera.take(name("-list"));
+  };
+  take("covered");
+  SceneEdits edits;
+  for (const Refusal& refusal : refusals(*window.workspace().result())) {
+    if (refusal.scene == "B") keep(edits, refusal);
+  }
+  window.workspace().set_edits({{QStringLiteral("B"), edits}});
+  if (!test::wait_for_result(window)) return 1;
+  take("kept");
+  return 0;
+}
+
 int photograph(widgets::MainWindow& window, const QString& folder, const QString& dataset,
                const QString& what, const QString& quick_theme) {
   const bool quick = !what.isEmpty();
   Photographer camera(window, folder);
   window.move(0, 0);
   window.show();
+  if (what == QLatin1String("covered")) return photograph_covered(window, camera, quick_theme);
   camera.take(QStringLiteral("welcome"));
   if (!quick) photograph_import(window, camera);
   if (dataset.isEmpty()) {
@@ -451,7 +499,7 @@ int main(int argc, char** argv) {
   if (arguments.size() < 2) {
     std::fprintf(stderr,
                  "usage: lvcalib-screenshots FOLDER [DATASET|demo] [LANGUAGE] [WIDTHxHEIGHT] "
-                 "[quick|model|opened [dark]]\n");
+                 "[quick|model|opened|covered [dark]]\n");
     return 2;
   }
   QDir().mkpath(arguments.at(1));
@@ -465,7 +513,7 @@ int main(int argc, char** argv) {
     choose(window, "language", arguments.value(3, QStringLiteral("en")));
     const QString dataset = arguments.value(2);
     QString what;
-    for (const char* part : {"quick", "model", "opened"}) {
+    for (const char* part : {"quick", "model", "opened", "covered"}) {
       if (arguments.contains(QLatin1String(part))) what = QLatin1String(part);
     }
     const QStringList size = arguments.value(4).split(QLatin1Char('x'));

@@ -4,8 +4,11 @@
 // latter told and not asserted: other machines have other clocks.
 #include <QComboBox>
 #include <QDialog>
+#include <QElapsedTimer>
+#include <QPushButton>
 #include <QTabWidget>
 #include <QTemporaryDir>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -17,6 +20,7 @@
 
 #include "runner/demo.h"
 #include "runner/memory.h"
+#include "views/cloud_scene_builder.h"
 #include "widgets/support/driver.h"
 
 namespace lvcalib::window_marks_test {
@@ -50,6 +54,7 @@ class WindowMarksTest : public ::testing::Test {
     options.seed = 3;
     options.scenes = 6;
     options.lidar.points = 250'000;
+    options.effects["range_walk"] = 10.0;  // mm: so that there is something to add.
     ASSERT_TRUE(widgets::make_demo(dataset().toStdString(), options, {}).ok());
   }
   static void TearDownTestSuite() {
@@ -94,6 +99,20 @@ class WindowMarksTest : public ::testing::Test {
     tell("every scene");
   }
 
+  // The effect of the dataset into the model; false if nothing was offered or nothing came of it.
+  bool add() {
+    auto* button = test::find<QPushButton>(*window_, "add_proposal");
+    if (!button->isEnabled()) return false;
+    button->click();
+    const widgets::ModelWork& model = window_->model_work();
+    return test::wait_until(
+        [&] { return model.current() == 1 && model.result() && !model.behind(); }, 300'000);
+  }
+  bool wait_for_model() {
+    return test::wait_until(
+        [&] { return window_->model_work().ranking() && !window_->model_work().busy(); }, 300'000);
+  }
+
   static inline QTemporaryDir* data_ = nullptr;
   QTemporaryDir folder_;
   test::Answers answers_;
@@ -104,6 +123,7 @@ class WindowMarksTest : public ::testing::Test {
 
 TEST_F(WindowMarksTest, SixScenesFitIntoMemory) {
   look_at_everything();
+  ASSERT_TRUE(wait_for_model());
   const double peak_mb = process_mb("VmHWM");
   malloc_trim(0);
   const double now_mb = process_mb("VmRSS");
@@ -112,6 +132,50 @@ TEST_F(WindowMarksTest, SixScenesFitIntoMemory) {
   RecordProperty("window_mb", static_cast<int>(now_mb));
   RecordProperty("window_peak_mb", static_cast<int>(peak_mb));
   EXPECT_LT(now_mb, 600.0);
+  // The measurements as an added effect sorts them are a second table of 56 MB.
+  ASSERT_TRUE(add());
+  ASSERT_TRUE(wait_for_model());
+  malloc_trim(0);
+  tell("adding an effect");
+  RecordProperty("added_mb", static_cast<int>(process_mb("VmRSS")));
+}
+
+// How long an added effect takes until every page has it, and what the window does not answer
+// meanwhile: told, as other machines have other clocks.
+TEST_F(WindowMarksTest, AnAddedEffectIsOnEveryPageSoon) {
+  ASSERT_TRUE(wait_for_model());
+  auto* tabs = test::find<QTabWidget>(*window_, "pages");
+  for (int page = 0; page < tabs->count(); ++page) {
+    tabs->setCurrentIndex(page);
+    QTest::qWait(500);
+  }
+  tabs->setCurrentIndex(4);
+  QTest::qWait(1000);
+  test::Watchdog watchdog;
+  QElapsedTimer clock;
+  const auto tell_gap = [&](const std::string& what) {
+    std::printf("  %lld ms: %s; largest gap %lld ms, of work %.0f ms\n", clock.elapsed(),
+                what.c_str(), watchdog.take_largest_ms(), watchdog.take_busiest_ms());
+  };
+  watchdog.take_largest_ms();
+  watchdog.take_busiest_ms();
+  clock.start();
+  ASSERT_TRUE(add());
+  tell_gap("the calibration with it is there");
+  // A page has it once nothing waits to be drawn any more.
+  for (int page = 0; page < tabs->count(); ++page) {
+    tabs->setCurrentIndex(page);
+    for (QElapsedTimer turn; turn.start(), QTest::qWait(10), turn.elapsed() > 20;) continue;
+    ASSERT_TRUE(test::wait_until([&] {
+      const auto builders = window_->findChildren<widgets::CloudSceneBuilder*>();
+      return std::none_of(builders.begin(), builders.end(),
+                          [](const auto* builder) { return builder->busy(); });
+    }));
+    tell_gap("page " + tabs->tabText(page).toStdString());
+  }
+  ASSERT_TRUE(wait_for_model());
+  QTest::qWait(500);
+  tell_gap("searched again for what is missing");
 }
 
 TEST_F(WindowMarksTest, EveryClickIsAnswered) {
