@@ -608,6 +608,7 @@ Status check_intrinsics(CalibrationResult& result,
     IntrinsicsContradiction found;
     found.contrast = of_all.contradicts() ? of_all : of_corners;
     found.what = describe(found.contrast, given, views);
+    found.by_ranges = !clear;
     found.turned_deg = clear ? turn_that_mends(views, given, alarm) : 0;
     if (freed) {
       found.camera_from_lidar = UncertainRigid3{

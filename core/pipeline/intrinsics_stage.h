@@ -28,6 +28,8 @@ struct IntrinsicsContradiction {
   double move_mm = 0.0;    ///< Between that and the result: of the LiDAR's position,
   double move_mrad = 0.0;  ///< and of the rotation.
   bool matters = true;     ///< More than the tolerance.
+  /// Only images and ranges together say so: it may be an effect on the ranges.
+  bool by_ranges = false;
   /// Another distortion model predicts held-out images better: no values of the given one mend
   /// that. `camera_from_lidar` is then solved with it.
   std::optional<DistortionModel> better_model;

@@ -15,6 +15,23 @@
 namespace lvcalib {
 namespace {
 
+// What only images and ranges together said against the intrinsics may have been an effect on the
+// ranges: it holds as far as the search, with the model in force, still sees intrinsics off.
+void ask_ranges_again(const Discovery& discovery, CalibrationResult& result) {
+  auto& contradiction = result.intrinsics.contradiction;
+  if (!contradiction || !contradiction->by_ranges || contradiction->modelled ||
+      discovery.model.empty())
+    return;
+  bool asked = false;
+  for (const EffectFinding& finding : discovery.effects) {
+    const EffectPtr effect = find_effect(finding.id);
+    if (effect == nullptr || !effect->info().of_intrinsics || !(finding.p_value < 1.0)) continue;
+    if (finding.p_value < result.options.intrinsics.false_alarm) return;
+    asked = true;
+  }
+  if (asked) contradiction.reset();
+}
+
 // What spoke against intrinsics and target in the images, asked again without what the model's
 // effects do to these.
 void ask_again(const Discovery& discovery, CalibrationResult& result) {
@@ -27,6 +44,7 @@ void ask_again(const Discovery& discovery, CalibrationResult& result) {
     };
   };
   ask_images_again(result, without(others), without(discovery.model));
+  ask_ranges_again(discovery, result);
 }
 
 // Pose of the LiDAR and of the boards in use.

@@ -100,6 +100,14 @@ void judge_intrinsics(const CalibrationResult& result, Verdict& verdict) {
     return;
   }
   const bool moves = found.camera_from_lidar.has_value();
+  if (found.by_ranges && found.matters && moves) {
+    verdict.doubtful(
+        Message("images and ranges together contradict the intrinsics: %1; with that freed the "
+                "extrinsic moves by %2 mm and %3 mrad; calibrate the camera again, or use "
+                "--intrinsics free, unless lvcalib discover finds an effect of the LiDAR",
+                found.what, formatted("%.1f", found.move_mm), formatted("%.2f", found.move_mrad)));
+    return;
+  }
   const std::string move_mm = formatted("%.1f", found.move_mm);
   const std::string move_mrad = formatted("%.2f", found.move_mrad);
   if (found.matters) {
@@ -454,6 +462,10 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
         Message("the model of every return could not be solved (%1): the extrinsic rests on nodes, "
                 "planes and corners",
                 result.forward_failure));
+  }
+  if (result.forward && !result.forward->converged) {
+    verdict.note(Message("the joint solve has not come to rest after %1 steps",
+                         result.forward->iterations));
   }
   if (result.forward) judge_print(result, options, verdict);
   judge_place(result, verdict);

@@ -243,6 +243,27 @@ TEST(WithModel, HowLargeABoardLooksIsToldByTheTimeOfItsReturns) {
                 [](int) { return 0.05 * 0.3 * (1.0 - std::exp(-2.0)); });
 }
 
+// What only images and ranges together said against the intrinsics was an effect on the ranges if
+// the search, with that in the model, sees nothing wrong with them any more.
+TEST(WithModel, IntrinsicsThatOnlyRangesContradictAreAskedAboutAgain) {
+  for (const bool by_ranges : {true, false}) {
+    for (const double p_value : {0.3, 1e-12, 1.0}) {
+      CalibrationResult before = four_scenes();
+      before.intrinsics.contradiction.emplace();
+      before.intrinsics.contradiction->by_ranges = by_ranges;
+      Discovery discovery = model_that_moves_nothing();
+      for (const SceneSolution& s : before.extrinsic.scenes)
+        discovery.state.camera_from_board.push_back(s.camera_from_board);
+      EffectFinding finding;
+      finding.id = "intrinsics_error";
+      finding.p_value = p_value;
+      discovery.effects = {finding};
+      const bool left = with_model(before, discovery).intrinsics.contradiction.has_value();
+      EXPECT_EQ(left, !by_ranges || p_value != 0.3) << by_ranges << ' ' << p_value;
+    }
+  }
+}
+
 struct Mended {
   const char* effect;
   double size;
