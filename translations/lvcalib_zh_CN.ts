@@ -5141,6 +5141,22 @@ were saved. Take them up again?</source>
         <source>the images of scenes %1 and those of scenes %2 are turned against each other: all agree once the former are turned counterclockwise by %3°, or the latter by %4°; nothing tells which are as the camera gives them: turn those that are not, and switch off what turns images</source>
         <translation>场景 %1 的图像与场景 %2 的图像方向互不一致：把前者逆时针旋转 %3°，或把后者逆时针旋转 %4° 后全部吻合；无法判断哪些是相机原本的方向：请旋转不是原本方向的图像，并关闭旋转图像的功能</translation>
     </message>
+    <message>
+        <source>circles cannot be measured in any scene (too few lines or points, or intensities in coarse steps): the prints as a whole, planes and corners are used instead</source>
+        <translation>所有场景中都无法测量圆（线数或点数太少，或强度分级太粗）：改用整块图案、平面和角点</translation>
+    </message>
+    <message>
+        <source>circles cannot be measured in scenes %1 (too few lines or points, or intensities in coarse steps): their prints as a whole, planes and corners are used instead</source>
+        <translation>场景 %1 中无法测量圆（线数或点数太少，或强度分级太粗）：改用这些场景的整块图案、平面和角点</translation>
+    </message>
+    <message>
+        <source>images and ranges together contradict the intrinsics: %1; with that freed the extrinsic moves by %2 mm and %3 mrad; calibrate the camera again, or use --intrinsics free, unless lvcalib discover finds an effect of the LiDAR</source>
+        <translation>图像与测距合起来与内参矛盾：%1；放开这些内参后外参移动 %2 mm 和 %3 mrad；请重新标定相机，或使用 --intrinsics free，除非 lvcalib discover 找到激光雷达的某种效应</translation>
+    </message>
+    <message>
+        <source>the joint solve has not come to rest after %1 steps</source>
+        <translation>联合求解在 %1 步之后仍未收敛</translation>
+    </message>
 </context>
 <context>
     <name>CoreWords</name>
