@@ -96,7 +96,7 @@ TESTED_BY = {
     "core/target": {"sheet_drawing": "sheet", "tag_pattern": "target"},
     "widgets/importing": {"board_choice": "import_form"},
     "widgets/pages": {
-        "cloud_pane": "scene_page", "image_pane": "scene_page", "selection_bar": "scene_page"},
+        "cloud_brush": "colors_pane", "cloud_pane": "scene_page", "image_pane": "scene_page", "selection_bar": "scene_page"},
     "widgets/runner": {
         "camera_work": "widgets/intrinsics/camera_page", "edge_work": "widgets/tools/check_dialog",
         "files_work": "widgets/importing/files_dialog", "memory": "widgets/workbench/window_marks",

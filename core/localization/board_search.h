@@ -38,7 +38,8 @@ struct BoardSearchOptions {
 struct BoardSearchRegion {
   Eigen::Vector3d center_m = Eigen::Vector3d::Zero();
   double radius_m = 0.0;
-  std::optional<Eigen::Vector3d> width = std::nullopt;  ///< Where the board's width points, if that is known.
+  std::optional<Eigen::Vector3d> width =
+      std::nullopt;  ///< Where the board's width points, if that is known.
 };
 
 struct BoardSearchResult {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/calibration.h"
+#include "support/ordinary_boards.h"
 #include "support/simulated_dataset.h"
 
 namespace lvcalib {
@@ -15,8 +16,7 @@ namespace {
 
 // Of 0.61 m by 0.85 m.
 Target small_checkerboard() {
-  Target t;
-  t.type = TargetType::kCheckerboard;
+  Target t = test::checkerboard_target();
   t.corner_columns = 5;
   t.corner_rows = 7;
   t.column_spacing_m = t.row_spacing_m = 0.095;
