@@ -449,6 +449,7 @@ void take_out_circles(SceneResult& scene) {
 // The print as a whole and the plane are used instead.
 void do_without_circles(SceneResult& scene) {
   scene.refinement->warnings.push_back(Message("its circles cannot be measured: %1", scene.reason));
+  scene.without_circles = true;
   scene.refinement->nodes.clear();
   scene.paper_nodes.clear();
   scene.refinement->scale_sigma = 0.0;

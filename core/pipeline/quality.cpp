@@ -211,10 +211,6 @@ void judge_scene_scales(const CalibrationResult& result, const QualityOptions& o
   }
 }
 
-bool without_circles(const Target& target, const SceneResult& scene) {
-  return target.has_circles() && scene.used && scene.refinement && scene.refinement->nodes.empty();
-}
-
 // A scanner of few lines measures circles in no scene: one note instead of one for each. Whether
 // it was said.
 bool note_missing_circles(const CalibrationResult& result, Verdict& verdict) {
@@ -223,7 +219,7 @@ bool note_missing_circles(const CalibrationResult& result, Verdict& verdict) {
   std::size_t used = 0;
   for (const SceneResult& scene : result.scenes) {
     used += scene.used ? 1 : 0;
-    if (without_circles(result.target, scene)) names.push_back(scene.name);
+    if (scene.used && scene.without_circles) names.push_back(scene.name);
   }
   if (names.size() < kMany) return false;
   verdict.note(
@@ -464,8 +460,8 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
                 result.forward_failure));
   }
   if (result.forward && !result.forward->converged) {
-    verdict.note(Message("the joint solve has not come to rest after %1 steps",
-                         result.forward->iterations));
+    verdict.note(
+        Message("the joint solve has not come to rest after %1 steps", result.forward->iterations));
   }
   if (result.forward) judge_print(result, options, verdict);
   judge_place(result, verdict);
@@ -520,8 +516,7 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
     if (scene.used && !scene.objection.empty())
       verdict.doubtful(Message("scene %1 is used all the same, as you decided, though %2",
                                scene.name, scene.objection));
-    if (!scene.refinement || !scene.used || (told && without_circles(result.target, scene)))
-      continue;
+    if (!scene.refinement || !scene.used || (told && scene.without_circles)) continue;
     for (const Message& w : scene.refinement->warnings)
       verdict.note(Message("scene %1: %2", scene.name, w));
   }
