@@ -48,7 +48,7 @@ struct SceneResult {
   bool contradicts = false;              ///< Left out because it disagrees with the other scenes.
   bool turned_image = false;             ///< So because its image is turned; see TurnedImages.
   BoardPlace place = BoardPlace::kOpen;  ///< What is where the other scenes put its board.
-  bool without_circles = false;  ///< They cannot be measured; the print as a whole is used.
+  bool without_circles = false;          ///< They cannot be measured; the print as a whole is used.
   /// The LiDAR sees the board but not its print: `search` goes by the outline, and the intensity of
   /// `board_points` is left out.
   bool no_contrast = false;
