@@ -18,9 +18,10 @@ constexpr double kLargestSideError = 0.25;
 // panel set on its corner would pass for a large one.
 constexpr double kLargestExcessArea = 1.15;
 
-// A stand, a cable: more of a patch than this is not the board, and it may be anything.
+// A stand or a cable is a few per cent of a board's area; a panel a fifth longer than the board,
+// which holds one anywhere, leaves out a sixth.
 constexpr double kLargestOutside = 0.15;
-// Windows that leave out as little but for a stray line.
+// Windows that leave out as little: the size's steps of a 24th move as much in or out.
 constexpr double kOutsideAlike = 0.03;
 
 // Points of a plane in a turned frame, counted in square cells; summed from the corner, so that a

@@ -14,7 +14,7 @@ namespace {
 constexpr double kGuessTolerance = 0.03;  // Of the image's width.
 // With four or fewer the standard deviation of a gain over images is itself hardly known.
 constexpr std::size_t kFewestToDoubt = 5;
-constexpr int kFolds = 5;
+constexpr int kFolds = 5;  // As is usual; with the fewest images each is left out alone.
 
 double mean_of(const std::vector<double>& values) {
   double sum = 0.0;
@@ -143,7 +143,7 @@ bool predicts_better(const std::vector<double>& a, const std::vector<double>& b)
   for (const double g : gain) spread += (g - usual) * (g - usual);
   const auto n = static_cast<double>(gain.size());
   const double sigma = std::sqrt(spread / (n * std::max(1.0, n - 1.0)));
-  constexpr double kLeast = 0.02;
+  constexpr double kLeast = 0.02;  // Of the squares: less is no reason to change a camera.
   return usual > 2.0 * sigma && mean_of(b) < (1.0 - kLeast) * mean_of(a);
 }
 

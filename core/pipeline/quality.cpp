@@ -100,16 +100,16 @@ void judge_intrinsics(const CalibrationResult& result, Verdict& verdict) {
     return;
   }
   const bool moves = found.camera_from_lidar.has_value();
+  const std::string move_mm = formatted("%.1f", found.move_mm);
+  const std::string move_mrad = formatted("%.2f", found.move_mrad);
   if (found.by_ranges && found.matters && moves) {
     verdict.doubtful(
         Message("images and ranges together contradict the intrinsics: %1; with that freed the "
                 "extrinsic moves by %2 mm and %3 mrad; calibrate the camera again, or use "
                 "--intrinsics free, unless lvcalib discover finds an effect of the LiDAR",
-                found.what, formatted("%.1f", found.move_mm), formatted("%.2f", found.move_mrad)));
+                found.what, move_mm, move_mrad));
     return;
   }
-  const std::string move_mm = formatted("%.1f", found.move_mm);
-  const std::string move_mrad = formatted("%.2f", found.move_mrad);
   if (found.matters) {
     verdict.doubtful(
         moves ? Message("the images contradict the intrinsics: %1; with that freed the extrinsic "
@@ -214,7 +214,7 @@ void judge_scene_scales(const CalibrationResult& result, const QualityOptions& o
 // A scanner of few lines measures circles in no scene: one note instead of one for each. Whether
 // it was said.
 bool note_missing_circles(const CalibrationResult& result, Verdict& verdict) {
-  constexpr std::size_t kMany = 3;
+  constexpr std::size_t kMany = 3;  // Two are named one by one, with why.
   std::vector<std::string> names;
   std::size_t used = 0;
   for (const SceneResult& scene : result.scenes) {
