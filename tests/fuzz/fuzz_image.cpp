@@ -21,7 +21,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   if (image->bytes.size() != image->row_bytes() * static_cast<std::size_t>(image->height_px))
     abort();
-  const auto png = lvcalib::encode_png(image->view());
+  const auto png = lvcalib::encode_png({image->width_px, image->height_px, image->channels,
+                                        image->bits, image->bytes.data(), image->row_bytes()});
   if (!png) abort();
   const auto back = lvcalib::decode_image(*png);
   if (!back || back->bytes != image->bytes) abort();
