@@ -44,6 +44,10 @@ class Basis {
                                                static_cast<double>(sorted.size() - 1));
       knots_.push_back(sorted[at]);
     }
+    for (std::size_t k = 0; k + 1 < knots_.size(); ++k) {
+      const double width = static_cast<double>(knots_[k + 1]) - knots_[k];
+      per_width_.push_back(width > 0.0 ? 1.0 / width : 0.0);
+    }
   }
 
   [[nodiscard]] int size() const {
@@ -59,25 +63,25 @@ class Basis {
       return;
     }
     // Knots are few: counting those passed is faster than a search whose branches nobody foresees.
-    std::size_t interval = 0;
+    int interval = 0;
     for (std::size_t k = 1; k + 1 < knots_.size(); ++k) interval += x < knots_[k] ? 0 : 1;
-    const double low = knots_[interval];
-    const double high = knots_[interval + 1];
-    const double t = high > low ? std::clamp((x - low) / (high - low), 0.0, 1.0) : 0.0;
+    const auto at = static_cast<std::size_t>(interval);
+    const double t = std::clamp((static_cast<double>(x) - knots_[at]) * per_width_[at], 0.0, 1.0);
     const double u = 1.0 - t;
     out.count = 4;
-    for (int k = 0; k < 4; ++k)
-      out.column[static_cast<std::size_t>(k)] = static_cast<int>(interval) + k;
-    out.value[0] = u * u * u / 6.0;
-    out.value[1] = (3 * t * t * t - 6 * t * t + 4) / 6.0;
-    out.value[2] = (3 * u * u * u - 6 * u * u + 4) / 6.0;
-    out.value[3] = t * t * t / 6.0;
+    for (int k = 0; k < 4; ++k) out.column[static_cast<std::size_t>(k)] = interval + k;
+    constexpr double kSixth = 1.0 / 6.0;
+    out.value[0] = kSixth * u * u * u;
+    out.value[1] = kSixth * (3 * t * t * t - 6 * t * t + 4);
+    out.value[2] = kSixth * (3 * u * u * u - 6 * u * u + 4);
+    out.value[3] = kSixth * t * t * t;
   }
 
  private:
   bool categories_;
   int intervals_;
-  std::vector<float> knots_;  // or labels
+  std::vector<float> knots_;       // or labels
+  std::vector<double> per_width_;  // of the intervals between knots; none of one without
 };
 
 /// A curve over one covariate, evaluated at row k.

@@ -103,7 +103,7 @@ struct SceneSums {
 template <class Shape>
 std::vector<SceneSums> scene_sums(const Shape& shape, const OwnRows& rows) {
   std::vector<SceneSums> sums(rows.scenes());
-  std::vector<Eigen::MatrixXd> nuisance(rows.scenes());
+  std::vector<Eigen::Matrix<double, kNuisance, Eigen::Dynamic>> nuisance(rows.scenes());
   for (std::size_t s = 0; s < sums.size(); ++s) {
     sums[s].curve.setZero(shape.size(), shape.size());
     sums[s].residual.setZero(shape.size());
@@ -210,13 +210,15 @@ void score(const Shape& shape, const OwnRows& rows, StructureScore& out) {
   // most of a surface flat: there stronger priors are tried as well, and scenes held out choose.
   const double one_row = sums.weight / std::max<double>(1.0, static_cast<double>(rows.size()));
   const StructureScore start = out;
+  double chosen = 0.0;
   for (const double prior_rows : Shape::kPriorRows) {
     StructureScore tried = start;
     predict_scenes(sums, rows, prior_rows * one_row, tried);
     if (prior_rows > 1.0 && tried.score <= out.score) continue;
     out = tried;
-    out.height = height_of(shape, rows, sums, prior_rows * one_row);
+    chosen = prior_rows * one_row;
   }
+  out.height = height_of(shape, rows, sums, chosen);
 }
 
 const Covariate* find_in(const std::vector<Covariate>& covariates, const std::string& name) {
@@ -257,39 +259,16 @@ std::optional<StructureScore> surface_score(const Covariate& x, const Covariate&
   return taken ? std::optional(out) : std::nullopt;
 }
 
-// Surfaces that predict held-out scenes better than either of their covariates alone.
-std::vector<StructureScore> surfaces(const std::vector<Covariate>& covariates,
-                                     const std::vector<StructureScore>& alone,
-                                     const OwnRows& rows) {
-  std::vector<StructureScore> out;
-  for (const auto& place : kPlaces) {
-    const auto first = place.first;
-    const auto second = place.second;
-    const Covariate* x = find_in(covariates, first);
-    const Covariate* y = find_in(covariates, second);
-    if (x == nullptr || y == nullptr) continue;
-    const auto s = surface_score(*x, *y, rows);
-    if (!s) continue;
-    const auto worse = [&](const StructureScore& one) {
-      return (one.covariate != first && one.covariate != second) || is_better(*s, one);
-    };
-    if (std::all_of(alone.begin(), alone.end(), worse)) out.push_back(*s);
-  }
-  return out;
-}
-
-// Something local in the lens displaces corners in both directions of the image.
-std::vector<StructureScore> image_surface(const std::vector<Covariate>& covariates,
-                                          const std::vector<StructureScore>& alone,
-                                          const OwnRows& rows) {
-  const Covariate* x = find_in(covariates, "image x");
-  const Covariate* y = find_in(covariates, "image y");
-  if (x == nullptr || y == nullptr) return {};
-  const auto s = surface_score(*x, *y, rows);
-  const bool better = s && std::all_of(alone.begin(), alone.end(), [&](const StructureScore& one) {
-                        return is_better(*s, one);
-                      });
-  return better ? std::vector{*s} : std::vector<StructureScore>{};
+// Whether a surface says what no curve does: more than either of its covariates alone, and, as
+// something local in the lens displaces corners in both directions of the image, more than any
+// curve of corners.
+bool says_more(const StructureScore& surface, const std::vector<StructureScore>& curves) {
+  return std::all_of(curves.begin(), curves.end(), [&](const StructureScore& one) {
+    if (one.channel != surface.channel) return true;
+    const bool beside = surface.channel == Channel::kCorner || one.covariate == surface.covariate ||
+                        one.covariate == surface.second_covariate;
+    return !beside || is_better(surface, one);
+  });
 }
 
 StructureScore score_of(const Covariate& covariate, const OwnRows& rows) {
@@ -305,6 +284,25 @@ struct ScannedChannel {
   std::optional<OwnRows> rows;
   std::vector<Covariate> covariates;
 };
+
+// What is scored: a curve over x, or a surface where there is a y.
+struct Asked {
+  std::size_t channel;
+  const Covariate* x;
+  const Covariate* y;
+};
+
+// Corners have two axes, which no single surface over the board describes.
+void add_surfaces(std::size_t channel, const std::vector<Covariate>& covariates,
+                  std::vector<Asked>& asked) {
+  const auto add = [&](const char* first, const char* second) {
+    const Covariate* x = find_in(covariates, first);
+    const Covariate* y = find_in(covariates, second);
+    if (x != nullptr && y != nullptr) asked.push_back({channel, x, y});
+  };
+  if (kAllChannels[channel] == Channel::kCorner) return add("image x", "image y");
+  for (const auto& [first, second] : kPlaces) add(first, second);
+}
 
 }  // namespace
 
@@ -335,30 +333,29 @@ StructureScan scan_structure(const MeasurementTable& table, const EveryResidual&
     channels[k].rows.emplace(r, static_cast<int>(table.scenes.size()));
     channels[k].covariates = covariates_of(table, r.channel, r);
   });
-  std::vector<std::pair<std::size_t, const Covariate*>> asked;
-  for (std::size_t k = 0; k < kChannels; ++k) {
-    for (const Covariate& c : channels[k].covariates) asked.emplace_back(k, &c);
-  }
   StructureScan out;
+  std::vector<Asked> asked;
+  for (std::size_t k = 0; k < kChannels; ++k) {
+    for (const Covariate& c : channels[k].covariates) asked.push_back({k, &c, nullptr});
+  }
   out.curves.resize(asked.size());
-  parallel_for(asked.size(), context.thread_count(), [&](std::size_t k) {
-    if (!context.stopped())
-      out.curves[k] = score_of(*asked[k].second, *channels[asked[k].first].rows);
-  });
-  std::array<std::vector<StructureScore>, kChannels> places;
-  parallel_for(kChannels, context.thread_count(), [&](std::size_t k) {
-    const ScannedChannel& channel = channels[k];
-    if (!channel.rows || context.stopped()) return;
-    std::vector<StructureScore> alone;
-    for (const StructureScore& s : out.curves) {
-      if (s.channel == residuals[k].channel) alone.push_back(s);
+  for (std::size_t k = 0; k < kChannels; ++k) add_surfaces(k, channels[k].covariates, asked);
+  std::vector<std::optional<StructureScore>> surfaces(asked.size() - out.curves.size());
+  // Surfaces take longest: they go first, so that all threads end together.
+  parallel_for(asked.size(), context.thread_count(), [&](std::size_t task) {
+    if (context.stopped()) return;
+    const std::size_t k = asked.size() - 1 - task;
+    const auto& [channel, x, y] = asked[k];
+    const OwnRows& rows = *channels[channel].rows;
+    if (y == nullptr) {
+      out.curves[k] = score_of(*x, rows);
+    } else {
+      surfaces[k - out.curves.size()] = surface_score(*x, *y, rows);
     }
-    // Corners have two axes, which no single surface over the board describes.
-    places[k] = residuals[k].channel == Channel::kCorner
-                    ? image_surface(channel.covariates, alone, *channel.rows)
-                    : surfaces(channel.covariates, alone, *channel.rows);
   });
-  for (const auto& one : places) out.places.insert(out.places.end(), one.begin(), one.end());
+  for (const auto& surface : surfaces) {
+    if (surface && says_more(*surface, out.curves)) out.places.push_back(*surface);
+  }
   sort_best_first(out.curves);
   sort_best_first(out.places);
   return out;

@@ -242,6 +242,8 @@ Result<ModelStepPtr> add_effect(const ModelStepPtr& from, const std::string& spe
         "the effect '%1' cannot be used: it acts just as %2 do, which makes the solve singular",
         spec, others));
   }
+  // Near its shape first: rows that follow another one would have to be made once more.
+  search.refine_shape(search.in_use().size() - 1);
   search.remake();
   search.refine_shapes();
   ModelStep step = changed(from, ModelChange::kAdd, id);

@@ -14,6 +14,7 @@
 #include "diagnostics/structure_scan.h"
 #include "pipeline/model_discovery.h"
 #include "selection/effect_search.h"
+#include "selection/model_session.h"
 #include "simulation/dataset_writer.h"
 
 namespace {
@@ -96,6 +97,20 @@ void ranking(benchmark::State& state) {
   count_rows(state, table);
 }
 
+// What *Add* does in the window before every page has the result: the effect's fit, the structure
+// that it leaves, the calibration under the model.
+void addition(benchmark::State& state) {
+  const CalibrationResult& result = calibrated(state.range(0));
+  const auto base = std::make_shared<const CalibrationResult>(result);
+  const auto start = start_model(discovery_input(result), discovery_options(result), {});
+  if (!start) give_up(start.error());
+  for (auto _ : state) {
+    const auto added = add_effect(*start, "range_walk", std::nullopt, {});
+    if (!added) give_up(added.error());
+    benchmark::DoNotOptimize(result_at(base, {*start, *added}));
+  }
+}
+
 void everything(benchmark::State& state) {
   const CalibrationResult& result = calibrated(state.range(0));
   std::size_t added = 0;
@@ -126,6 +141,11 @@ BENCHMARK(structure_scan)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
 BENCHMARK(ranking)
+    ->Arg(250'000)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(addition)
     ->Arg(250'000)
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()

@@ -102,6 +102,7 @@ void ModelWork::forget() {
   source_ = nullptr;
   made_.clear();
   rankings_.clear();
+  fresh_ = {};
   result_ = nullptr;
   update_steps();
   Q_EMIT changed();
@@ -196,41 +197,44 @@ void ModelWork::run(Place goal, const DescribedCommand::Words& words) {
         Q_EMIT failed(error);
       };
     };
-    ModelStepPtr step;
+    std::vector<ModelStepPtr> steps;
     std::vector<ModelDecision> done;
     const std::vector<ModelDecision> wanted = goal.in_force();
     for (std::size_t k = 0; k <= wanted.size(); ++k) {
       if (k > 0) done.push_back(wanted[k - 1]);
       if (const auto at = made.find(key_of(done)); at != made.end() && at->second) {
-        step = at->second;
+        steps.push_back(at->second);
         continue;
       }
       auto next = k == 0
                       ? start_model(discovery_input(*source), discovery_options(*source), context)
-                      : apply_decision(step, wanted[k - 1], context);
+                      : apply_decision(steps.back(), wanted[k - 1], context);
       if (!next && words.source == nullptr && k > 0 && next.error().kind != ErrorKind::kCancelled) {
         // Decided elsewhere, as by another version: said, kept as it is, and the rest goes on.
         post([this, error = next.error()] {
           Q_EMIT logged(core_text(error));
           Q_EMIT failed(error);
         });
-        auto carried = std::make_shared<ModelStep>(*step);
+        auto carried = std::make_shared<ModelStep>(*steps.back());
         carried->change = wanted[k - 1].change;
         carried->changed = wanted[k - 1].spec;
         next = ModelStepPtr(std::move(carried));
       }
       if (!next) return fail(next.error());
-      step = *next;
-      post([this, done, step] { keep(done, step); });
+      steps.push_back(*next);
+      post([this, done, step = *next] { keep(done, step); });
     }
-    post([this, goal, words] {
+    // Before the search for what is missing: every page waits for it.
+    auto result = result_at(source, steps);
+    post([this, goal, words, key = key_of(wanted), result = std::move(result)] {
+      fresh_ = {key, result};
       if (words.source == nullptr) {
         arrive(goal);
       } else {
         push(goal, words);
       }
     });
-    auto ranking = rank_effects(*step, context);
+    auto ranking = rank_effects(*steps.back(), context);
     if (!ranking) return fail(ranking.error());
     return [this, key = key_of(wanted), found = std::move(*ranking)] { keep_ranking(key, found); };
   });
@@ -324,6 +328,13 @@ void ModelWork::build_result() {
                              source_->quality == Quality::kGood))) {
     results_.cancel();
     result_ = nullptr;
+    Q_EMIT result_changed();
+    return;
+  }
+  const auto fresh = std::exchange(fresh_, {});
+  if (!missing && fresh.second && fresh.first == key_of(place_.in_force())) {
+    results_.cancel();
+    result_ = fresh.second;
     Q_EMIT result_changed();
     return;
   }

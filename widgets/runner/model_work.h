@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipeline/calibration.h"
@@ -111,6 +112,8 @@ class ModelWork : public QObject {
   std::map<Key, std::shared_ptr<const ModelRanking>> rankings_;
   std::vector<ModelStepPtr> steps_;
   std::shared_ptr<const CalibrationResult> result_;
+  // What a run made of its last step, for the place where it arrives.
+  std::pair<Key, std::shared_ptr<const CalibrationResult>> fresh_;
   Place place_;
   Runner results_;  // Makes the calibration with the model.
   Runner runner_;   // Last: abandoned before what it uses goes.

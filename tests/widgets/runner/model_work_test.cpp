@@ -208,6 +208,21 @@ TEST_F(Work, IsBehindUntilTheCalibrationWithTheModelIsMade) {
   EXPECT_FALSE(work_->behind());
 }
 
+// Pages show an added effect at once, while the rest of the catalogue is still asked: what is made
+// for them does not share the processors with that search.
+TEST_F(Work, AnAddedEffectArrivesWithItsCalibration) {
+  work_->start();
+  ASSERT_TRUE(idle());
+  work_->add("range_walk");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return work_->steps().size() == 2 && work_->step(); }, 60'000));
+  EXPECT_FALSE(work_->behind());
+  ASSERT_NE(work_->result(), nullptr);
+  EXPECT_EQ(work_->result()->model.size(), 1U);
+  EXPECT_EQ(work_->ranking(), nullptr);
+  ASSERT_TRUE(idle());
+  EXPECT_NE(work_->ranking(), nullptr);
+}
+
 // A project of another version: what it names is said once and kept, and the rest is done.
 TEST_F(Work, AnEffectThatThisVersionLacksIsCarried) {
   const std::vector<ModelDecision> decisions = {{ModelChange::kAdd, "quantum_foam", {}},

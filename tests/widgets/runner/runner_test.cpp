@@ -9,6 +9,7 @@
 #include <thread>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 namespace lvcalib::widgets::runner_test {
 namespace {
@@ -39,6 +40,24 @@ TEST(Runner, DeliversInTheInterfaceThreadAndReportsProgress) {
   ASSERT_EQ(progressed.count(), 1);
   EXPECT_EQ(progressed.first().at(1).toString(), "load");
   EXPECT_EQ(progressed.first().at(2).toDouble(), 0.5);
+}
+
+// The window is drawn first, whatever is computed with as many threads as there are processors.
+TEST(Runner, JobsAndTheirThreadsStandBehindTheWindow) {
+  const int before = ::getpriority(PRIO_PROCESS, 0);
+  Runner runner;
+  int job = before;
+  int helper = before;
+  runner.start([&](const RunContext&, const Runner::Post&) -> Runner::Deliver {
+    job = ::getpriority(PRIO_PROCESS, 0);
+    std::thread([&] { helper = ::getpriority(PRIO_PROCESS, 0); }).join();
+    return {};
+  });
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !runner.running(); }, 10'000));
+  if (before >= 19) GTEST_SKIP() << "there is no place further back";
+  EXPECT_GT(job, before);
+  EXPECT_GT(helper, before);
+  EXPECT_EQ(::getpriority(PRIO_PROCESS, 0), before) << "the window keeps its own";
 }
 
 TEST(Runner, ExceptionsBecomeMessages) {
