@@ -128,6 +128,7 @@ int PageStack::tab_count() const {
 
 void PageStack::start(const Dataset& dataset) {
   set_result(nullptr);
+  scene_->setTarget(dataset.target);
   refinement_->setTarget(dataset.target);
   set_scene(-1, std::nullopt);
   set_dataset(dataset);

@@ -379,4 +379,14 @@ BoardSearchResult search_board(const Cloud& cloud, const BoardSought& sought,
   return result;
 }
 
+std::optional<Rigid3> likely_board(const Cloud& cloud, const Target& target,
+                                   const RunContext& context) {
+  BoardSearchOptions options;
+  options.max_lever_arm_m = 25.0;  // About the LiDAR, wherever the camera is.
+  const PatternPyramid pyramid(target);
+  const BoardSearchResult found = search_board(cloud, {target, pyramid}, options, context);
+  if (context.stopped() || found.candidates.empty()) return std::nullopt;
+  return found.candidates.front().lidar_from_board.transform;
+}
+
 }  // namespace lvcalib

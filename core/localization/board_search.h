@@ -69,6 +69,12 @@ struct BoardSought {
 BoardSearchResult search_board(const Cloud& cloud, const BoardSought& sought,
                                const BoardSearchOptions& options, const RunContext& context);
 
+/// Where the board most likely stands, for a first look at a cloud before anything is calibrated:
+/// what search_board() finds first within 25 m, where a board of a metre still has some hundred
+/// returns. None where there is nothing like it, or if stopped.
+std::optional<Rigid3> likely_board(const Cloud& cloud, const Target& target,
+                                   const RunContext& context);
+
 /// True if the board's pattern, not only its outline, can be looked for.
 bool matches_by_pattern(const Target& target, const Cloud& cloud);
 

@@ -173,6 +173,10 @@ void ScenePage::setSceneData(std::shared_ptr<const Cloud> full_cloud, QImage ima
   refresh();
 }
 
+void ScenePage::setTarget(const Target& target) {
+  target_ = target;
+}
+
 void ScenePage::setProblems(const Message& cloud, const Message& image) {
   cloud_problem_ = cloud;
   image_problem_ = image;
@@ -207,6 +211,9 @@ void ScenePage::refresh() {
       input.camera_from_lidar = result_->extrinsic.camera_from_lidar.transform;
     }
     lines = cloud_lines(*result_, *scene);
+  } else if (!result_ && target_) {
+    input.target = *target_;
+    input.seek_board = true;
   }
   const Eigen::Vector3d middle =
       cloud_->view()->scene() ? cloud_->view()->scene()->center_m : Eigen::Vector3d::UnitX();

@@ -36,6 +36,8 @@ class ScenePage : public QWidget {
 
   /// Null: nothing is known yet.
   void setResult(std::shared_ptr<const CalibrationResult> result);
+  /// What the clouds show: looked for in them as long as there is no result.
+  void setTarget(const Target& target);
   /// The model in force, for what it leaves over the board; null: the calibration's own.
   void setModel(ModelStepPtr step);
   /// Which scene of the dataset; −1: none. Another scene's cloud and image are let go.
@@ -98,6 +100,7 @@ class ScenePage : public QWidget {
 
   std::shared_ptr<const CalibrationResult> result_;
   ModelStepPtr model_;
+  std::optional<Target> target_;
   std::shared_ptr<const Cloud> full_cloud_;
   QImage picture_;
   Message cloud_problem_;

@@ -47,7 +47,7 @@ class Builder {
 
   std::shared_ptr<const CloudScene> run() {
     chooseCloud();
-    placeBoard();
+    if (in_.refinement) scene_->place_board(in_.refinement->lidar_from_board, in_.target.outline());
     if (in_.unused) scene_->unused = in_.unused();
     if (stop_.stop_requested()) return nullptr;
     if (!scene_->cloud) return scene_;
@@ -63,16 +63,6 @@ class Builder {
   }
 
  private:
-  void placeBoard() {
-    if (!in_.refinement) return;
-    const BoardOutline outline = in_.target.outline();
-    const Eigen::Vector2d middle = outline.center_m();
-    scene_->board_center_m =
-        in_.refinement->lidar_from_board * Eigen::Vector3d(middle.x(), middle.y(), 0.0);
-    scene_->board_radius_m = 0.5 * outline.size_m().norm();
-    scene_->board_normal = in_.refinement->lidar_from_board.rotation * Eigen::Vector3d::UnitZ();
-  }
-
   // How often values occur, beside the colours that they get.
   void count(const std::vector<float>& values) {
     constexpr int kBins = 48;
@@ -329,6 +319,13 @@ QRgb image_color(const QImage& image, const Eigen::Vector2f& pixel) {
   const int x = static_cast<int>(std::lround(pixel.x()));
   const int y = static_cast<int>(std::lround(pixel.y()));
   return image.valid(x, y) ? image.pixel(x, y) : qRgb(110, 110, 110);
+}
+
+void CloudScene::place_board(const Rigid3& lidar_from_board, const BoardOutline& outline) {
+  const Eigen::Vector2d middle = outline.center_m();
+  board_center_m = lidar_from_board * Eigen::Vector3d(middle.x(), middle.y(), 0.0);
+  board_radius_m = 0.5 * outline.size_m().norm();
+  board_normal = lidar_from_board.rotation * Eigen::Vector3d::UnitZ();
 }
 
 std::shared_ptr<const CloudScene> build_cloud_scene(const CloudSceneInput& input,

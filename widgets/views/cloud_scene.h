@@ -65,6 +65,8 @@ struct CloudSceneInput {
   CloudColor color = CloudColor::kIntensity;
   std::optional<CropBox> crop;
   std::optional<BoardRefinement> refinement;  ///< For the board's place and boundary samples.
+  /// Looks for the board where there is no refinement, so that it comes into sight.
+  bool seek_board = false;
   /// What the model leaves over the board; called only if a picture needs it, by the thread that
   /// builds the picture. May be empty.
   std::function<std::optional<BoardSurface>()> surface = {};
@@ -110,6 +112,9 @@ struct CloudScene {
   double board_radius_m = 0.0;
   /// Out of the board's printed side.
   Eigen::Vector3d board_normal = Eigen::Vector3d::Zero();
+  bool board_is_likely = false;  ///< By the cloud alone, before a calibration has found it.
+
+  void place_board(const Rigid3& lidar_from_board, const BoardOutline& outline);
 
   [[nodiscard]] std::size_t size() const { return order.size(); }
 };

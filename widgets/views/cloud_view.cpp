@@ -158,7 +158,10 @@ void CloudView::setScene(std::shared_ptr<const CloudScene> scene) {
   const bool has_board = scene && scene->board_radius_m > 0.0;
   // What everything is about comes into sight when a cloud is opened, or once it is found; but who
   // has chosen a view of his own by then keeps it.
-  const bool found = has_board && scene_ && !(scene_->board_radius_m > 0.0) && !viewerHasMoved();
+  const auto knowledge = [](const CloudScene& s) {
+    return s.board_radius_m > 0.0 ? (s.board_is_likely ? 1 : 2) : 0;
+  };
+  const bool found = scene && scene_ && knowledge(*scene) > knowledge(*scene_) && !viewerHasMoved();
   scene_ = std::move(scene);
   if (canvas_ != nullptr) {
     canvas_->pipeline().setScene(scene_);

@@ -100,6 +100,25 @@ TEST_P(EveryLidar, FindsNothingWhereThereIsNoBoard) {
   }
 }
 
+// For a first look at a cloud: no camera says how far away to look.
+TEST_P(EveryLidar, TheLikelyBoardNeedsNoCamera) {
+  SimulationOptions options = test::cloud_only_options(12, GetParam());
+  const SimulatedScene scene = test::simulated_scene(options);
+  const auto likely = likely_board(scene.cloud, options.target, {});
+  ASSERT_TRUE(likely);
+  EXPECT_LT(
+      (board_center(options.target, *likely) - board_center(options.target, scene.lidar_from_board))
+          .norm(),
+      0.02);
+  options.placement.board = false;
+  EXPECT_FALSE(likely_board(test::simulated_scene(options).cloud, options.target, {}));
+  std::stop_source stop;
+  stop.request_stop();
+  RunContext stopped;
+  stopped.stop = stop.get_token();
+  EXPECT_FALSE(likely_board(scene.cloud, options.target, stopped));
+}
+
 // Turned or shifted by a square its colours change places, and markers are small.
 TEST_P(EveryLidar, FindsAChArUcoBoardWhicheverWayRound) {
   SimulationOptions options = test::cloud_only_options(31, GetParam());

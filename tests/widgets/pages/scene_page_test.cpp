@@ -402,6 +402,31 @@ TEST_F(ScenePageTest, LoadedButNotYetSolved) {
   EXPECT_TRUE(selection().contains("once there is an extrinsic"));
 }
 
+// The target says what to look for; a result knows better.
+TEST_F(ScenePageTest, TheBoardComesIntoSightBeforeARun) {
+  std::vector<double> radius;
+  QObject::connect(page_.cloudPane(), &CloudPane::sceneShown, &page_,
+                   [&] { radius.push_back(cloud().board_radius_m); });
+  page_.setTarget(demo_.result->target);
+  page_.setScene(1);
+  page_.setSceneData(demo_.clouds[1], demo_.images[1]);
+  ASSERT_TRUE(settle());
+  ASSERT_GE(radius.size(), 2U);
+  EXPECT_EQ(*(radius.end() - 2), 0.0) << "the cloud does not wait for it";
+  EXPECT_GT(radius.back(), 0.3);
+  EXPECT_TRUE(cloud().board_is_likely);
+  const Eigen::Vector3d likely = cloud().board_center_m;
+  // It is not looked for again when the same cloud gets other colours.
+  const std::size_t before = radius.size();
+  choose("cloud-color", 1);
+  EXPECT_EQ(radius.size(), before + 1);
+  EXPECT_TRUE(cloud().board_is_likely);
+  page_.setResult(demo_.result);
+  ASSERT_TRUE(settle());
+  EXPECT_FALSE(cloud().board_is_likely);
+  EXPECT_LT((cloud().board_center_m - likely).norm(), 0.02);
+}
+
 // Everything can be reached with the keyboard, and says what it is.
 TEST_F(ScenePageTest, ControlsAreReachableAndExplained) {
   load();

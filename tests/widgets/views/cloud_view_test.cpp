@@ -232,6 +232,29 @@ TEST_F(CloudViewTest, AViewOfOnesOwnIsKeptWhenTheBoardIsFound) {
   EXPECT_GT((view_.canvas()->pipeline().viewer().eye_m - turned.eye_m).norm(), 1e-3);
 }
 
+// What the cloud alone says is likely comes into sight at once; what a calibration has found there
+// or elsewhere takes its place.
+TEST_F(CloudViewTest, TheLikelyBoardIsFramedAndGivesWayToTheOneFound) {
+  const auto cloud = wall(50'000);
+  const auto focus_with = [&](const Eigen::Vector3d& center_m, bool is_likely) {
+    auto scene = std::make_shared<CloudScene>(*scene_of(cloud));
+    scene->board_center_m = center_m;
+    scene->board_radius_m = 0.5;
+    scene->board_normal = -Eigen::Vector3d::UnitX();
+    scene->board_is_likely = is_likely;
+    view_.setScene(scene);
+    EXPECT_TRUE(settle());
+    return view_.canvas()->pipeline().viewer().focus_m;
+  };
+  view_.setScene(scene_of(cloud));
+  ASSERT_TRUE(settle());
+  const Eigen::Vector3d likely(3.0, 1.2, -0.8);
+  const Eigen::Vector3d found(3.0, -0.9, 0.4);
+  EXPECT_LT((focus_with(likely, true) - likely).norm(), 1e-6);
+  EXPECT_LT((focus_with(found, false) - found).norm(), 1e-6);
+  EXPECT_LT((focus_with(likely, true) - found).norm(), 1e-6) << "not back again";
+}
+
 // A few returns from far away make the rest no speck when a cloud is opened; Reset shows them, too.
 TEST_F(CloudViewTest, OpensOnWhatMostPointsShow) {
   view_.setScene(scene_of(wall(50'000)));
