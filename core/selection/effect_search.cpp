@@ -425,7 +425,7 @@ void EffectSearch::remake() {
     remade_ = std::move(next);
     table_ = remade_.get();
     state_.beam.jitter_rad2 = table_->placed_by.beam.jitter_rad2;
-    memory_ = PrintMemory(table());
+    memory_.emplace(table());
     refit();
     if (admit_structure()) refit();
     if (context_.stopped()) return;

@@ -28,8 +28,17 @@ class EffectSearch {
   EffectSearch(const MeasurementTable& table, ModelState state, std::vector<EffectInUse> in_use,
                const DiscoveryOptions& options, const RunContext& context);
 
-  /// Who is told of progress and may stop it from now on.
-  void set_context(const RunContext& context) { context_ = context; }
+  /// Goes on from where it was laid aside: who is told of progress and may stop it from now on.
+  void go_on(const RunContext& context) {
+    context_ = context;
+    if (!memory_) memory_.emplace(table());
+  }
+  /// To be kept for later: nobody is told any more, and what only saves time is let go (44 bytes
+  /// for each row).
+  void lay_aside() {
+    context_ = {};
+    memory_.reset();
+  }
   /// Adds an effect without asking and refits.
   void add(const EffectPtr& effect, double shape);
   /// Takes effect number k out and refits.
@@ -164,7 +173,8 @@ class EffectSearch {
   [[nodiscard]] Linearization linearized(const std::vector<EffectInUse>& effects,
                                          const EffectColumnsList& columns,
                                          const ChannelMask& channels = kEveryChannel) const {
-    return linearize(table(), state_, effects, columns, context_, channels, &memory_);
+    return linearize(table(), state_, effects, columns, context_, channels,
+                     memory_ ? &*memory_ : nullptr);
   }
   // Columns that stand for effect number `of`, its value in use taken for zero.
   struct OtherColumns {
@@ -195,7 +205,7 @@ class EffectSearch {
   const MeasurementTable* base_;   // what was given
   const MeasurementTable* table_;  // that, or …
   std::shared_ptr<const MeasurementTable> remade_;
-  mutable PrintMemory memory_;  ///< Of the table in use: a cache of predictions.
+  mutable std::optional<PrintMemory> memory_;  ///< Of the table in use: a cache of predictions.
   ModelState state_;
   const DiscoveryOptions* options_;  ///< The caller's; a pointer, so that a search can be put back.
   RunContext context_;  ///< by value: copies are cheap and a caller's temporary may not outlive it

@@ -62,7 +62,7 @@ Status enough_scenes(std::size_t scenes) {
 Result<ModelStepPtr> step_from(EffectSearch found, ModelStep step, const RunContext& context) {
   if (context.stopped()) return Error::cancelled();
   if (auto stated = found.as_stated()) {
-    stated->set_context({});
+    stated->lay_aside();
     step.stated = std::make_shared<const EffectSearch>(std::move(*stated));
   }
   const EffectSearch& search = step.stated ? *step.stated : found;
@@ -83,7 +83,7 @@ Result<ModelStepPtr> step_from(EffectSearch found, ModelStep step, const RunCont
   if (context.stopped()) return Error::cancelled();
   step.structure = std::move(scan.curves);
   step.places = std::move(scan.places);
-  found.set_context({});
+  found.lay_aside();
   step.search = std::make_shared<const EffectSearch>(std::move(found));
   return ModelStepPtr(std::make_shared<const ModelStep>(std::move(step)));
 }
@@ -234,7 +234,7 @@ Result<ModelStepPtr> add_effect(const ModelStepPtr& from, const std::string& spe
     return Error::input(Message("the effect '%1' cannot be used: %2", spec, why));
   context.report("model", 0.0, Message("fitting the model"));
   EffectSearch search(*from->search);
-  search.set_context(context);
+  search.go_on(context);
   search.add(*effect, shape ? *shape : search.preferred_shape(*effect));
   if (context.stopped()) return Error::cancelled();
   if (const Message others = singular_with(search); !others.empty()) {
@@ -325,7 +325,7 @@ Result<ModelStepPtr> find_all(const ModelStepPtr& from,
                               const RunContext& context) {
   ModelStepPtr step = from;
   EffectSearch search(*from->search);
-  search.set_context(context);
+  search.go_on(context);
   std::vector<Selection> selections = selections_of(from->terms);
   RunContext silent = context;  // Its steps are parts of one work.
   silent.progress = nullptr;
@@ -345,7 +345,7 @@ Result<ModelStepPtr> find_all(const ModelStepPtr& from,
   if (context.stopped()) return Error::cancelled();
   if (failed) return *failed;
   // What was ranked at last is ranked.
-  search.set_context({});
+  search.lay_aside();
   auto last = std::make_shared<ModelStep>(*step);
   last->search = std::make_shared<const EffectSearch>(std::move(search));
   return ModelStepPtr(std::move(last));

@@ -139,7 +139,7 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
   const DiscoveryOptions& options = step.basis->options;
   context.report("rank", 0.1, Message("ranking effects"));
   EffectSearch search(*step.search);
-  search.set_context(context);
+  search.go_on(context);
   search.rank();
   if (context.stopped()) return Error::cancelled();
   context.report("verdicts", 0.7, Message("judging effects"));
