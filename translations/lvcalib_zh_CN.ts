@@ -7187,10 +7187,6 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <translation>已取消；已完成的点云保留。</translation>
     </message>
     <message>
-        <source>%1 clouds, %2 points, moved by %3 mm RMS, %4 mm at most.</source>
-        <translation>%1 个点云，%2 个点，移动 RMS %3 mm，最大 %4 mm。</translation>
-    </message>
-    <message>
         <source>%1: %2 mm RMS</source>
         <translation>%1：RMS %2 mm</translation>
     </message>
@@ -7265,6 +7261,12 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>of the way from the first scene to the last</source>
         <translation>（从第一个场景到最后一个场景）</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n clouds, %1 points, moved by %2 mm RMS, %3 mm at most.</source>
+        <translation>
+            <numerusform>%n 个点云，%1 个点，移动 RMS %2 mm，最大 %3 mm。</numerusform>
+        </translation>
     </message>
 </context>
 <context>

@@ -36,13 +36,17 @@ QString use_language(const QString& code) {
                                                               : QStringLiteral("en");
   QCoreApplication::removeTranslator(own);
   QCoreApplication::removeTranslator(qt);
-  if (wanted == QLatin1String("en")) return wanted;
-  // Qt's own dialogs, if their catalogue is installed.
-  if (qt->load(QStringLiteral("qtbase_") + wanted,
-               QLibraryInfo::path(QLibraryInfo::TranslationsPath)))
+  // Qt's own dialogs, if their catalogue is installed. They are English as they are.
+  if (wanted != QLatin1String("en") && qt->load(QStringLiteral("qtbase_") + wanted,
+                                                QLibraryInfo::path(QLibraryInfo::TranslationsPath)))
     QCoreApplication::installTranslator(qt);
-  if (!own->load(QStringLiteral(":/translations/lvcalib_%1.qm").arg(wanted)))
-    return QStringLiteral("en");
+  const auto load = [](const QString& language) {
+    return own->load(QStringLiteral(":/translations/lvcalib_%1.qm").arg(language));
+  };
+  if (!load(wanted)) {
+    wanted = QStringLiteral("en");
+    load(wanted);  // What is said of one alone.
+  }
   QCoreApplication::installTranslator(own);
   return wanted;
 }

@@ -212,8 +212,8 @@ QString CorrectDialog::summaryText() const {
   if (!done_) return {};
   const CorrectionSummary& all = done_->total;
   QStringList lines;
-  lines << tr("%1 clouds, %2 points, moved by %3 mm RMS, %4 mm at most.")
-               .arg(done_->clouds)
+  lines << tr("%n clouds, %1 points, moved by %2 mm RMS, %3 mm at most.", nullptr,
+              static_cast<int>(done_->clouds))
                .arg(all.points)
                .arg(mm_text(all.rms_m), mm_text(all.largest_m));
   for (const EffectCorrection& e : all.effects) {

@@ -20,5 +20,18 @@ TEST(Language, TheChineseCatalogueIsPartOfTheProgram) {
   ASSERT_EQ(languages().size(), 2U);
 }
 
+TEST(Language, OneIsNotManyInEnglish) {
+  const auto opened = [](int scenes) {
+    return QCoreApplication::translate("lvcalib::widgets::Workspace", "Opened %1 with %n scenes.",
+                                       nullptr, scenes);
+  };
+  for (const char* code : {"en", "xx"}) {
+    EXPECT_EQ(use_language(code), "en");
+    EXPECT_EQ(opened(1), "Opened %1 with 1 scene.") << code;
+    EXPECT_EQ(opened(2), "Opened %1 with 2 scenes.") << code;
+    EXPECT_EQ(opened(0), "Opened %1 with 0 scenes.") << code;
+  }
+}
+
 }  // namespace
 }  // namespace lvcalib::widgets::language_test
