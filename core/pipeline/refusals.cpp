@@ -157,6 +157,15 @@ std::vector<GateDistance> gate_distances(const CalibrationResult& result) {
   return out;
 }
 
+std::vector<Eigen::AlignedBox2d> covered_parts(const CalibrationResult& result,
+                                               const std::string& scene) {
+  std::vector<Eigen::AlignedBox2d> out;
+  for (const Refusal& refusal : refusals(result)) {
+    if (refusal.scene == scene && refusal.what == What::kPatch) out.push_back(refusal.board_m);
+  }
+  return out;
+}
+
 std::vector<std::uint32_t> refused_returns(const CalibrationResult& result, std::size_t scene) {
   if (!result.forward || !result.print || scene >= result.scenes.size()) return {};
   const SceneResult& from = result.scenes[scene];

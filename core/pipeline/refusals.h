@@ -44,6 +44,11 @@ void keep(SceneEdits& edits, const Refusal& refusal);
 /// scene that is refused as a whole nothing else is listed.
 std::vector<Refusal> refusals(const CalibrationResult& result);
 
+/// The parts of a scene's board that the solve takes for covered (kPatch); none if the scene does
+/// not take part.
+std::vector<Eigen::AlignedBox2d> covered_parts(const CalibrationResult& result,
+                                               const std::string& scene);
+
 /// How far a tag (its worst corner) or a circle that takes part misses the board's pose, in
 /// standard deviations: what the gate is held against.
 struct GateDistance {

@@ -9,6 +9,7 @@
 #include "pipeline/calibration.h"
 #include "pipeline/forward_stage.h"
 #include "pipeline/quality.h"
+#include "pipeline/refusals.h"
 #include "pipeline/stopwatch.h"
 
 namespace lvcalib {
@@ -21,7 +22,8 @@ Status respond(CalibrationResult& result, const Target& target, const Calibratio
   std::vector<ResponseInput> inputs;
   for (const SceneResult& scene : result.scenes) {
     if (scene.used && scene.refinement && !scene.refinement->nodes.empty())
-      inputs.push_back({scene.name, &scene.board_points, &*scene.refinement});
+      inputs.push_back(
+          {scene.name, &scene.board_points, &*scene.refinement, covered_parts(result, scene.name)});
   }
   auto response = calibrate_boundary_response(inputs, target, options.response, context);
   if (!response) return response.error();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "model/residuals.h"
+#include "pipeline/refusals.h"
 
 namespace lvcalib {
 
@@ -154,7 +155,7 @@ std::optional<BoundaryResponse> WithoutEffects::boundary_response(
     refined[k].nodes = observations[k].nodes;
     refined[k].plane = observations[k].plane;
     refined[k].lidar_from_board = discovery_.state.camera_from_lidar.inverse() * *camera_from_board;
-    inputs.push_back({scene.name, &clouds[k], &refined[k]});
+    inputs.push_back({scene.name, &clouds[k], &refined[k], covered_parts(result_, scene.name)});
   }
   auto response =
       calibrate_boundary_response(inputs, target_, result_.options.response, RunContext{});

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "base/error.h"
 #include "base/progress.h"
@@ -127,11 +128,13 @@ struct BoundaryResponse {
   Message reason;  ///< Why there are no statistics; empty otherwise.
 };
 
-/// What the calibration needs of one scene; both must outlive the call.
+/// What the calibration needs of one scene; what is pointed to must outlive the call.
 struct ResponseInput {
   std::string name;
   const Cloud* board_points = nullptr;
   const BoardRefinement* refinement = nullptr;
+  /// Parts of the board that something covers: no sample is taken there.
+  std::vector<Eigen::AlignedBox2d> covered = {};
 };
 
 /// Calibrates the boundary response. Scenes run at the same time. Never fails for want of data:

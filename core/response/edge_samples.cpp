@@ -32,8 +32,10 @@ SightAxes sight_axes(const Eigen::Vector3d& sight) {
 // Everything about the board that the samples share.
 class EdgeCollector {
  public:
-  EdgeCollector(const BoardRefinement& refinement, const Target& target)
+  EdgeCollector(const BoardRefinement& refinement, const std::vector<Eigen::AlignedBox2d>& covered,
+                const Target& target)
       : refinement_(refinement),
+        covered_(covered),
         window_(node_window(target)),
         board_from_lidar_(refinement.lidar_from_board.inverse()),
         normal_(refinement.lidar_from_board.rotation * Eigen::Vector3d::UnitZ()),
@@ -55,7 +57,7 @@ class EdgeCollector {
     if (!(std::abs(range - board_range) <= gate_m_)) return;
     const Eigen::Vector2d hit = (board_from_lidar_ * (board_range * sight)).head<2>();
     const auto node = nearest_node(hit);
-    if (!node) return;
+    if (!node || is_covered(hit)) return;
     const Eigen::Vector2d radial = hit - refinement_.nodes[*node].board_m;
     const double radius = radial.norm();
     const double distance = radius - window_.radius_m;
@@ -83,6 +85,11 @@ class EdgeCollector {
       best = k;
     }
     return best;
+  }
+
+  [[nodiscard]] bool is_covered(const Eigen::Vector2d& hit) const {
+    return std::any_of(covered_.begin(), covered_.end(),
+                       [&](const Eigen::AlignedBox2d& part) { return part.contains(hit); });
   }
 
   [[nodiscard]] BoundarySample describe_sample(const Eigen::Vector3d& point, double range,
@@ -124,6 +131,7 @@ class EdgeCollector {
   }
 
   const BoardRefinement& refinement_;
+  const std::vector<Eigen::AlignedBox2d>& covered_;
   NodeWindow window_;
   Rigid3 board_from_lidar_;
   Eigen::Vector3d normal_;
@@ -234,7 +242,7 @@ std::vector<BoundarySample> collect_edge_samples(const ResponseInput& scene, con
   std::vector<BoundarySample> samples;
   const Cloud& cloud = *scene.board_points;
   if (!cloud.has_intensity() || scene.refinement->nodes.empty()) return samples;
-  const EdgeCollector collector(*scene.refinement, target);
+  const EdgeCollector collector(*scene.refinement, scene.covered, target);
   for (std::size_t i = 0; i < cloud.size(); ++i)
     collector.add(cloud.points_m[i].cast<double>(), cloud.intensity[i], samples);
   return samples;

@@ -115,6 +115,21 @@ TEST_F(EdgeSamples, PointsOffThePlaneAndCloudsWithoutIntensityGiveNone) {
   EXPECT_TRUE(collect_edge_samples({"A", &bare, &refinement_}, target_).empty());
 }
 
+// What stands before the board there hides the circle's edge, or looks like another one.
+TEST_F(EdgeSamples, CoveredPartsGiveNone) {
+  const Eigen::Vector2d c = refinement_.nodes[4].board_m;
+  const double r = target_.circle_radius_m;
+  Cloud cloud;
+  for (const double side : {-r, r}) {
+    cloud.points_m.push_back(at(c + Eigen::Vector2d(side, 0)).cast<float>());
+    cloud.intensity.push_back(7.0F);
+  }
+  const Eigen::AlignedBox2d left(c - Eigen::Vector2d(2 * r, r), c + Eigen::Vector2d(0, r));
+  const auto samples = collect_edge_samples({"A", &cloud, &refinement_, {left}}, target_);
+  ASSERT_EQ(samples.size(), 1U);
+  EXPECT_GT(samples[0].board_m.x(), c.x());
+}
+
 TEST_F(EdgeSamples, OverlapRegionFollowsTheWidthAndKeepsClearOfTags) {
   BoundarySample s;
   s.outward = Eigen::Vector2f(1.0F, 0.0F);  // Along the gap: no tag near.

@@ -63,6 +63,13 @@ TEST_F(CoveredBoardTest, APartOfTheBoardIsShownAsRefusedAndTakenBack) {
   ASSERT_GE(count, 1U);
   for (const Refusal& patch : patches()) EXPECT_EQ(patch.scene, "B");
   EXPECT_TRUE(parts().empty()) << "scene A";
+  const SceneResponse& response = workspace().result()->response.scenes[1];
+  ASSERT_EQ(response.name, "B");
+  EXPECT_GT(response.samples.size(), 300U);
+  for (const BoundarySample& s : response.samples) {
+    for (const Refusal& patch : patches())
+      ASSERT_FALSE(patch.board_m.contains(s.board_m.cast<double>())) << s.board_m.transpose();
+  }
   test::click_scene(*window_, "B", false);
   ASSERT_TRUE(test::wait_until([&] {
     const auto& shown = page_->findChild<widgets::CloudView*>()->scene();

@@ -346,6 +346,11 @@ void photograph_model(widgets::MainWindow& window, Photographer& camera, const Q
     window.model_work().add(QString::fromLatin1(effect));
   }
   if (wait_for_model(window)) camera.take(name("two"));
+  // What the rest is taken with.
+  window.model_work().go_to(0);
+  if (!wait_for_model(window)) return;
+  window.model_work().add(QStringLiteral("range_walk"));
+  wait_for_model(window);
 }
 
 // Every bubble as its reader finds it, up to the one that waits for an effect to be added.
@@ -449,7 +454,6 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
     return 0;
   }
   test::trigger(window, "run");
-  QTest::qWait(500);
   camera.take(QStringLiteral("running"));
   if (!test::wait_until(
           [&] { return window.workspace().result() != nullptr && !window.workspace().busy(); }))
