@@ -59,6 +59,9 @@ class Photographer {
       QTest::qWait(50);
       if (turn.elapsed() < 100) break;
     }
+    take_at_once(name, widget);
+  }
+  void take_at_once(const QString& name, QWidget* widget = nullptr) {
     QWidget* shown = widget == nullptr ? &window_ : widget;
     const QString path = QDir(folder_).filePath(name + QStringLiteral(".png"));
     // From the screen: a grab of widgets would miss what OpenGL drew.
@@ -454,7 +457,8 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
     return 0;
   }
   test::trigger(window, "run");
-  camera.take(QStringLiteral("running"));
+  QTest::qWait(150);  // The demo is done in less than a second.
+  camera.take_at_once(QStringLiteral("running"));
   if (!test::wait_until(
           [&] { return window.workspace().result() != nullptr && !window.workspace().busy(); }))
     return 1;
