@@ -341,6 +341,9 @@ Result<ModelStepPtr> find_all(const ModelStepPtr& from,
     }
     step = *made;
     if (on_step) on_step(step);
+    // As whoever goes on from the step that is kept, to the last digit.
+    search.lay_aside();
+    search.go_on(context);
   });
   if (context.stopped()) return Error::cancelled();
   if (failed) return *failed;

@@ -21,6 +21,9 @@ struct CoveredPatch {
   std::size_t returns = 0;
 };
 
+/// Standard deviation that rounding to whole steps leaves, in steps: 1/√12.
+inline constexpr double kRoundingSigma = 0.2887;
+
 /// The returns of one scene that lie on the board, as places in the scene's cloud.
 struct BoardReturns {
   const Cloud* cloud = nullptr;

@@ -405,10 +405,9 @@ void update_noise(const SceneNoise& before, const Accumulator& sums, const Lidar
   fit.noise.range_black_m =
       sums.cut_rows[1] < kFewest ? fit.noise.range_white_m : sigma(1, before.range_black_m, 1e-5);
   // Numbers that come in steps scatter by a step/√12 at least; whole ones, by that.
-  constexpr double kStep = 0.2887;
-  const double floor = kStep * (returns.intensity_step > 0.0   ? returns.intensity_step
-                                : before.intensity_white > 2.0 ? 1.0
-                                                               : 0.0);
+  const double floor = kRoundingSigma * (returns.intensity_step > 0.0   ? returns.intensity_step
+                                         : before.intensity_white > 2.0 ? 1.0
+                                                                        : 0.0);
   fit.noise.intensity_white = sigma(2, before.intensity_white, std::max(floor, 1e-9));
   fit.noise.intensity_black = sums.cut_rows[3] < kFewest
                                   ? fit.noise.intensity_white

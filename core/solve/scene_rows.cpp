@@ -297,9 +297,8 @@ void SceneRows::measure_noise(const SceneNoise& fallback) {
     if (range_noise_m_[k] <= 0.0) range_noise_m_[k] = range[k];
     range_noise_m_[k] = std::max(range_noise_m_[k], 1e-5);
     intensity_noise_[k] = intensities[k].sigma();
-    // Whole numbers, which scatter by 1/√12 at least: most replicates may be alike.
-    constexpr double kStep = 0.2887;
-    if (intensity_noise_[k] < kStep) intensity_noise_[k] = std::max(1e-9, intensity[k]);
+    // Of whole numbers most replicates may be alike.
+    if (intensity_noise_[k] < kRoundingSigma) intensity_noise_[k] = std::max(1e-9, intensity[k]);
   }
 }
 

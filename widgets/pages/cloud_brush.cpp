@@ -4,10 +4,12 @@
 #include <QAction>
 #include <QLabel>
 #include <QToolButton>
+#include <QVBoxLayout>
 #include <array>
 #include <set>
 
 #include "style/texts.h"
+#include "views/cloud_scene_builder.h"
 #include "views/cloud_view.h"
 #include "views/tool_row.h"
 
@@ -85,6 +87,32 @@ void CloudBrush::select(const std::vector<std::uint32_t>& points, bool add) {
   text_->setToolTip(count == 0 ? tr("Only points about a board play a part.") : QString());
   text_->setVisible(!selected_.empty());
   exclude_->setVisible(count > 0);
+}
+
+BrushedCloudPane::BrushedCloudPane(QWidget* parent)
+    : QWidget(parent),
+      row_(new ToolRow(this)),
+      view_(new CloudView(this)),
+      builder_(new CloudSceneBuilder(this)) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 4, 0, 0);
+  layout->setSpacing(2);
+  layout->addWidget(row_);
+  layout->addWidget(view_, 1);
+  connect(builder_, &CloudSceneBuilder::ready, view_, &CloudView::setScene);
+  connect(view_->figureActions(), &FigureActions::failed, this, &BrushedCloudPane::failed);
+}
+
+void BrushedCloudPane::addTools(const QString& name) {
+  for (QAction* action : view_->viewActions()) row_->addTool(action);
+  brush_ = new CloudBrush(view_, row_, name, [this](const std::vector<std::uint32_t>& points) {
+    return byScene(points);
+  });
+  connect(brush_, &CloudBrush::excludeWanted, this, &BrushedCloudPane::excludeWanted);
+}
+
+bool BrushedCloudPane::busy() const {
+  return builder_->busy();
 }
 
 }  // namespace lvcalib::widgets

@@ -3,6 +3,7 @@
 
 #include <QObject>
 #include <QString>
+#include <QWidget>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -16,6 +17,7 @@ class QToolButton;
 
 namespace lvcalib::widgets {
 
+class CloudSceneBuilder;
 class CloudView;
 class ToolRow;
 
@@ -55,6 +57,35 @@ class CloudBrush : public QObject {
   QAction* brush_;
   QLabel* text_;
   QToolButton* exclude_;
+};
+
+/// A cloud of scenes with the view's tools and a brush above it.
+class BrushedCloudPane : public QWidget {
+  Q_OBJECT
+
+ public:
+  [[nodiscard]] CloudView* view() const { return view_; }
+  [[nodiscard]] bool busy() const;
+
+ Q_SIGNALS:
+  /// Brushed points are to be left out, by scene.
+  void excludeWanted(const lvcalib::widgets::PointsOfScenes& points);
+  void failed(const QString& message);
+
+ protected:
+  explicit BrushedCloudPane(QWidget* parent);
+  /// Behind the tools of a kind of pane; `name` as of CloudBrush.
+  void addTools(const QString& name);
+  [[nodiscard]] ToolRow* row() const { return row_; }
+  [[nodiscard]] CloudBrush* brush() const { return brush_; }
+  [[nodiscard]] CloudSceneBuilder* builder() const { return builder_; }
+  [[nodiscard]] virtual PointsOfScenes byScene(const std::vector<std::uint32_t>& points) const = 0;
+
+ private:
+  ToolRow* row_;
+  CloudView* view_;
+  CloudSceneBuilder* builder_;
+  CloudBrush* brush_ = nullptr;
 };
 
 }  // namespace lvcalib::widgets

@@ -1,34 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pages/colors_pane.h"
 
-#include <QVBoxLayout>
-
 #include "pages/scene_overlay.h"
 #include "views/cloud_scene_builder.h"
-#include "views/cloud_view.h"
-#include "views/tool_row.h"
 
 namespace lvcalib::widgets {
 
-ColorsPane::ColorsPane(QWidget* parent)
-    : QWidget(parent), view_(new CloudView(this)), builder_(new CloudSceneBuilder(this)) {
-  auto* bar = new ToolRow(this);
-  for (QAction* action : view_->viewActions()) bar->addTool(action);
-  brush_ =
-      new CloudBrush(view_, bar, QStringLiteral("colors"),
-                     [this](const std::vector<std::uint32_t>& points) { return byScene(points); });
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 4, 0, 0);
-  layout->setSpacing(2);
-  layout->addWidget(bar);
-  layout->addWidget(view_, 1);
-  connect(builder_, &CloudSceneBuilder::ready, view_, &CloudView::setScene);
-  connect(view_->figureActions(), &FigureActions::failed, this, &ColorsPane::failed);
-  connect(brush_, &CloudBrush::excludeWanted, this, &ColorsPane::excludeWanted);
-}
-
-bool ColorsPane::busy() const {
-  return builder_->busy();
+ColorsPane::ColorsPane(QWidget* parent) : BrushedCloudPane(parent) {
+  addTools(QStringLiteral("colors"));
 }
 
 void ColorsPane::setResult(std::shared_ptr<const CalibrationResult> result) {
@@ -44,7 +23,7 @@ void ColorsPane::setSceneData(int scene, std::shared_ptr<const Cloud> full_cloud
 }
 
 void ColorsPane::rebuild() {
-  brush_->clear();
+  brush()->clear();
   CloudSceneInput input;
   input.color = CloudColor::kCameraColor;
   if (result_ && scene_ >= 0 && has_extrinsic(*result_)) {
@@ -54,7 +33,7 @@ void ColorsPane::rebuild() {
     input.camera = result_->camera;
     input.camera_from_lidar = result_->extrinsic.camera_from_lidar.transform;
   }
-  builder_->request(std::move(input));
+  builder()->request(std::move(input));
 }
 
 PointsOfScenes ColorsPane::byScene(const std::vector<std::uint32_t>& points) const {

@@ -3,7 +3,6 @@
 
 #include <QComboBox>
 #include <QEvent>
-#include <QVBoxLayout>
 
 #include <Eigen/Geometry>
 
@@ -16,37 +15,19 @@
 
 namespace lvcalib::widgets {
 
-WorldPane::WorldPane(QWidget* parent)
-    : QWidget(parent), view_(new CloudView(this)), builder_(new CloudSceneBuilder(this)) {
-  auto* bar = new ToolRow(this);
-  color_ = new QComboBox(bar);
+WorldPane::WorldPane(QWidget* parent) : BrushedCloudPane(parent), color_(new QComboBox(row())) {
   color_->setObjectName(QStringLiteral("world-color"));
   for (const CloudColor color : {CloudColor::kScene, CloudColor::kIntensity, CloudColor::kRange})
     color_->addItem({}, static_cast<int>(color));
-  bar->addWidget(color_);
-  bar->addSeparator();
-  for (QAction* action : view_->viewActions()) bar->addTool(action);
-  brush_ =
-      new CloudBrush(view_, bar, QStringLiteral("world"),
-                     [this](const std::vector<std::uint32_t>& points) { return byScene(points); });
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 4, 0, 0);
-  layout->setSpacing(2);
-  layout->addWidget(bar);
-  layout->addWidget(view_, 1);
+  row()->addWidget(color_);
+  row()->addSeparator();
+  addTools(QStringLiteral("world"));
   connect(color_, &QComboBox::currentIndexChanged, this, &WorldPane::rebuild);
-  connect(builder_, &CloudSceneBuilder::ready, view_, &CloudView::setScene);
-  connect(view_->figureActions(), &FigureActions::failed, this, &WorldPane::failed);
-  connect(view_, &CloudView::pointPicked, this, [this](std::uint32_t point) {
+  connect(view(), &CloudView::pointPicked, this, [this](std::uint32_t point) {
     if (boards_ && point < boards_->line.size())
       Q_EMIT sceneActivated(static_cast<int>(boards_->line[point]) - 1);
   });
-  connect(brush_, &CloudBrush::excludeWanted, this, &WorldPane::excludeWanted);
   follow_language(this, [this] { retranslate(); });
-}
-
-bool WorldPane::busy() const {
-  return builder_->busy();
 }
 
 void WorldPane::retranslate() {
@@ -72,20 +53,20 @@ PointsOfScenes WorldPane::byScene(const std::vector<std::uint32_t>& points) cons
 void WorldPane::setResult(std::shared_ptr<const CalibrationResult> result) {
   result_ = std::move(result);
   boards_ = result_ ? std::make_shared<const Cloud>(all_boards(*result_)) : nullptr;
-  brush_->clear();  // Points of another result.
-  view_->setLines(result_ ? world_lines(*result_, lidar_) : std::vector<CloudLine>());
+  brush()->clear();  // Points of another result.
+  view()->setLines(result_ ? world_lines(*result_, lidar_) : std::vector<CloudLine>());
   rebuild();
 }
 
 void WorldPane::setScan(const std::shared_ptr<const Cloud>& scan) {
   if (!scan) return;  // What another scene has told still holds.
   lidar_ = field_of_view(*scan);
-  if (result_) view_->setLines(world_lines(*result_, lidar_));
+  if (result_) view()->setLines(world_lines(*result_, lidar_));
 }
 
 void WorldPane::changeEvent(QEvent* event) {
   QWidget::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange && builder_ != nullptr) rebuild();
+  if (event->type() == QEvent::PaletteChange && color_ != nullptr) rebuild();
 }
 
 void WorldPane::rebuild() {
@@ -111,7 +92,7 @@ void WorldPane::rebuild() {
   } else {
     input.problem = tr("run the calibration first");
   }
-  builder_->request(std::move(input));
+  builder()->request(std::move(input));
 }
 
 }  // namespace lvcalib::widgets

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QWidget>
 #include <memory>
 #include <vector>
 
@@ -13,13 +12,10 @@ class QComboBox;
 
 namespace lvcalib::widgets {
 
-class CloudSceneBuilder;
-class CloudView;
-
 /// All scenes in one world, about the rig that does not move: the boards' points, every board as
 /// either sensor sees it, the LiDAR's axes and the pyramids of both views. A click on a board goes
 /// to its scene.
-class WorldPane : public QWidget {
+class WorldPane : public BrushedCloudPane {
   Q_OBJECT
 
  public:
@@ -29,15 +25,10 @@ class WorldPane : public QWidget {
   void setResult(std::shared_ptr<const CalibrationResult> result);
   /// A whole scan of the LiDAR, of whatever scene: where it looks.
   void setScan(const std::shared_ptr<const Cloud>& scan);
-  [[nodiscard]] CloudView* view() const { return view_; }
-  [[nodiscard]] bool busy() const;
 
  Q_SIGNALS:
   /// Index into the result's scenes.
   void sceneActivated(int scene);
-  /// Brushed points are to be left out, by scene.
-  void excludeWanted(const lvcalib::widgets::PointsOfScenes& points);
-  void failed(const QString& message);
 
  protected:
   void changeEvent(QEvent* event) override;
@@ -45,15 +36,12 @@ class WorldPane : public QWidget {
  private:
   void retranslate();
   void rebuild();
-  [[nodiscard]] PointsOfScenes byScene(const std::vector<std::uint32_t>& points) const;
+  [[nodiscard]] PointsOfScenes byScene(const std::vector<std::uint32_t>& points) const override;
 
   std::shared_ptr<const CalibrationResult> result_;
   std::shared_ptr<const Cloud> boards_;
   FieldOfView lidar_;
-  CloudView* view_;
-  CloudSceneBuilder* builder_ = nullptr;
-  QComboBox* color_;
-  CloudBrush* brush_;
+  QComboBox* color_ = nullptr;
 };
 
 }  // namespace lvcalib::widgets
