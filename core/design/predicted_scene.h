@@ -55,7 +55,7 @@ void append_predicted_scene(const GridPose& pose, const SensorModel& sensors,
 /// What a pose's worth is told by. Refers to all of it.
 struct PredictionModel {
   const SensorModel& sensors;
-  const MeasurementTable& like;  ///< Gives target, camera, print, levels and lines.
+  const MeasurementTable& like;  ///< Gives target, camera, levels and lines.
   const Rigid3& camera_from_lidar;
   const EffectColumnsList& columns;
   const ColumnSubset& subset;

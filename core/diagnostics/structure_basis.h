@@ -81,7 +81,7 @@ class Basis {
   bool categories_;
   int intervals_;
   std::vector<float> knots_;       // or labels
-  std::vector<double> per_width_;  // of the intervals between knots; none of one without
+  std::vector<double> per_width_;  // 1 / width of each interval between knots; 0 if it has none
 };
 
 /// A curve over one covariate, evaluated at row k.

@@ -259,9 +259,9 @@ std::optional<StructureScore> surface_score(const Covariate& x, const Covariate&
   return taken ? std::optional(out) : std::nullopt;
 }
 
-// Whether a surface says what no curve does: more than either of its covariates alone, and, as
-// something local in the lens displaces corners in both directions of the image, more than any
-// curve of corners.
+// Whether a surface predicts held-out scenes better than either of its covariates alone. One of
+// corners must beat every curve: something local in the lens displaces them in both directions of
+// the image, which shows in other covariates as well.
 bool says_more(const StructureScore& surface, const std::vector<StructureScore>& curves) {
   return std::all_of(curves.begin(), curves.end(), [&](const StructureScore& one) {
     if (one.channel != surface.channel) return true;

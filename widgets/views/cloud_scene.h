@@ -114,6 +114,7 @@ struct CloudScene {
   Eigen::Vector3d board_normal = Eigen::Vector3d::Zero();
   bool board_is_likely = false;  ///< By the cloud alone, before a calibration has found it.
 
+  /// Tells where the board is, in the cloud's frame.
   void place_board(const Rigid3& lidar_from_board, const BoardOutline& outline);
 
   [[nodiscard]] std::size_t size() const { return order.size(); }
