@@ -71,7 +71,10 @@ void StatusLine::show_progress(const QString& stage, double fraction, const QStr
   }
   stage_->setText(name);
   stage_->show();
+  // A bar draws itself at once, and with it the whole window: here with all else that changed.
+  bar_->setUpdatesEnabled(false);
   bar_->setValue(static_cast<int>(kSteps * fraction));
+  bar_->setUpdatesEnabled(true);
   bar_->show();
   text_->setText(text);
 }

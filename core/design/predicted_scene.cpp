@@ -347,8 +347,9 @@ std::vector<Eigen::MatrixXd> predicted_information(const std::vector<GridPose>& 
   MeasurementTable empty = model.like.without_rows();
   empty.scenes.clear();
   // Its own: boards nearby are seen through blurs finer than any measured, whose levels are large
-  // (90 MB from 1.2 to 1.5 mm on a board of a metre) and asked for by nobody else.
-  empty.print = std::make_shared<const BlurredPrint>(empty.target);
+  // (from 1.2 to 1.5 mm on a board of a metre 90 MB, with this spacing 23) and asked for by nobody
+  // else.
+  empty.print = std::make_shared<const BlurredPrint>(empty.target, BlurredPrint::kPlanSpacing);
   RunContext one_thread = context;
   one_thread.threads = 1;
   std::vector<Eigen::MatrixXd> out(poses.size());

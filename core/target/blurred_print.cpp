@@ -18,8 +18,6 @@ namespace {
 // of the contrast and its largest slope by 0.3 %: (v₁−v₀)⁴/384 · max|∂⁴A/∂v⁴| with ∂/∂v = ½∇², and
 // (1/σ₀−1/σ₁)²/8 · max|∂²|∇A|/∂(1/σ)²|.
 constexpr double kRatio = 1.15;
-// Spacing of the samples in widths.
-constexpr double kSpacing = 0.5;
 // Largest raster side; the first width follows from it. 1.1 mm on a board of a metre: below what
 // any LiDAR's beam is wide at the nearest useful range.
 constexpr double kLargestRaster = 1800.0;
@@ -274,8 +272,8 @@ struct BlurredPrint::Level {
   int rows = 0;
   std::vector<std::array<float, 4>> samples;
 
-  Level(const Target& target, const BoardOutline& outline, double sigma) {
-    step = kSpacing * sigma;
+  Level(const Target& target, const BoardOutline& outline, double sigma, double spacing) {
+    step = spacing * sigma;
     per_step = 1.0 / step;
     // Room for the blur beyond the outline, where the print is white.
     const Eigen::Vector2d border = 4.0 * sigma * Eigen::Vector2d(1.0, 1.0);
@@ -433,8 +431,8 @@ struct BlurredPrint::Level {
   }
 };
 
-BlurredPrint::BlurredPrint(const Target& target)
-    : target_(target), outline_(target.outline()), edges_(target) {
+BlurredPrint::BlurredPrint(const Target& target, double spacing)
+    : target_(target), outline_(target.outline()), edges_(target), spacing_(spacing) {
   first_sigma_m_ = outline_.size_m().maxCoeff() / (kSpacing * kLargestRaster);
   for (int k = 0; k < kLevels; ++k)
     variance_m2_[static_cast<std::size_t>(k)] = std::pow(sigma_m(k), 2);
@@ -459,7 +457,7 @@ const BlurredPrint::Level& BlurredPrint::level(int index) const {
   const std::lock_guard lock(building_[static_cast<std::size_t>(index)]);
   made = slot.load(std::memory_order_acquire);
   if (made == nullptr) {
-    made = new Level(target_, outline_, sigma_m(index));
+    made = new Level(target_, outline_, sigma_m(index), spacing_);
     slot.store(made, std::memory_order_release);
   }
   return *made;

@@ -41,7 +41,7 @@ class LocalPrint {
 /// The print under any Gaussian blur.
 ///
 /// Kept is the print under a series of isotropic blurs of widths σ_k = σ_0·q^k, each sampled with a
-/// spacing of σ_k/2 (value, both slopes and the mixed second derivative, for bicubic Hermite
+/// spacing of h·σ_k, h = ½ (value, both slopes and the mixed second derivative, for bicubic Hermite
 /// interpolation; the error of that is h⁴/384·max|A''''| = 2·10⁻⁴ a direction). A level is made
 /// when it is first asked for. Its samples are exact: the blur of a rectangle is a product of error
 /// functions, that of a disc a function of the distance from its middle. Between levels the value
@@ -50,8 +50,12 @@ class LocalPrint {
 /// Beyond the board's outline the print goes on white. Safe to use from several threads.
 class BlurredPrint {
  public:
-  /// Errors are the target's own: it must pass check().
-  explicit BlurredPrint(const Target& target);
+  static constexpr double kSpacing = 0.5;
+  /// Samples at the whole width: a quarter of the memory, a value off by up to 3·10⁻³. For plans,
+  /// whose blurs are finer than any measured.
+  static constexpr double kPlanSpacing = 1.0;
+  /// `spacing`: h. Errors are the target's own: it must pass check().
+  explicit BlurredPrint(const Target& target, double spacing = kSpacing);
   ~BlurredPrint();
   BlurredPrint(const BlurredPrint&) = delete;
   BlurredPrint& operator=(const BlurredPrint&) = delete;
@@ -113,6 +117,7 @@ class BlurredPrint {
   Target target_;
   BoardOutline outline_;
   PrintEdges edges_;
+  double spacing_ = kSpacing;
   double first_sigma_m_ = 0.0;
   std::array<double, kLevels> variance_m2_{};
   // Each level has its own lock: two threads may make two levels.

@@ -219,7 +219,8 @@ void ExtrinsicPage::activate(int index) {
 
 void ExtrinsicPage::setResult(std::shared_ptr<const CalibrationResult> result) {
   result_ = std::move(result);
-  stale_ = false;
+  stale_ = unseen(*this);
+  if (stale_) return;
   fillTexts();
   methods_->setResult(result_.get());
   uncertainty_->setResult(result_.get());

@@ -7,6 +7,7 @@
 #include <QTimer>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include <sys/resource.h>
@@ -65,6 +66,8 @@ QString complaint_of(const std::function<void()>& call) {
 struct Runner::Task {
   quint64 id = 0;
   std::stop_source stop;
+  std::mutex mutex;                // Of what follows.
+  std::optional<Progress> latest;  // Not told yet: a telling is on its way.
 };
 
 // The way back to the runner's thread, cut when the runner goes away.
@@ -97,29 +100,30 @@ quint64 Runner::start(Work work) {
   }
   task_ = std::make_shared<Task>();
   task_->id = ++id_;
-  auto* worker = new Worker(task_->stop, [mailbox = mailbox_, task = task_, work = std::move(work),
-                                          this]() mutable {
-    RunContext context;
-    context.stop = task->stop.get_token();
-    context.progress = [mailbox, task, this](const Progress& p) {
-      if (task->stop.stop_requested()) return;
-      mailbox->post([this, task, p] {
-        if (task != task_) return;
-        Q_EMIT progressed(task->id, QString::fromStdString(p.stage), p.fraction, core_text(p.text));
+  told_.invalidate();
+  auto* worker = new Worker(
+      task_->stop, [mailbox = mailbox_, task = task_, work = std::move(work), this]() mutable {
+        RunContext context;
+        context.stop = task->stop.get_token();
+        context.progress = [mailbox, task, this](const Progress& p) {
+          if (task->stop.stop_requested()) return;
+          const std::lock_guard lock(task->mutex);
+          const bool on_its_way = task->latest.has_value();
+          task->latest = p;
+          if (!on_its_way) mailbox->post([this, task] { tell_progress(task); });
+        };
+        const Post post = [mailbox, task, this](Deliver call) {
+          if (task->stop.stop_requested()) return;
+          mailbox->post([this, task, call = std::move(call)] {
+            if (task == task_ && !task->stop.stop_requested()) call();
+          });
+        };
+        Deliver deliver;
+        const QString error = complaint_of([&] { deliver = work(context, post); });
+        work = {};  // What the job held goes before its results are handed over.
+        mailbox->post(
+            [this, task, deliver = std::move(deliver), error] { take(task, deliver, error); });
       });
-    };
-    const Post post = [mailbox, task, this](Deliver call) {
-      if (task->stop.stop_requested()) return;
-      mailbox->post([this, task, call = std::move(call)] {
-        if (task == task_ && !task->stop.stop_requested()) call();
-      });
-    };
-    Deliver deliver;
-    const QString error = complaint_of([&] { deliver = work(context, post); });
-    work = {};  // What the job held goes before its results are handed over.
-    mailbox->post(
-        [this, task, deliver = std::move(deliver), error] { take(task, deliver, error); });
-  });
   worker->start();
   // Without a thread nobody else would say that nothing comes of it.
   if (!worker->isRunning() && !worker->isFinished()) {
@@ -146,6 +150,24 @@ void Runner::cancel() {
     abandon();
     Q_EMIT cancelled(task->id);
   });
+}
+
+void Runner::tell_progress(const std::shared_ptr<Task>& task) {
+  if (task != task_) return;
+  if (told_.isValid() && told_.elapsed() < kTellEveryMs) {
+    QTimer::singleShot(kTellEveryMs - told_.elapsed(), this, [this, task] { tell_progress(task); });
+    return;
+  }
+  told_.start();
+  std::optional<Progress> latest;
+  {
+    const std::lock_guard lock(task->mutex);
+    latest = std::exchange(task->latest, {});
+  }
+  if (latest) {
+    Q_EMIT progressed(task->id, QString::fromStdString(latest->stage), latest->fraction,
+                      core_text(latest->text));
+  }
 }
 
 void Runner::take(const std::shared_ptr<Task>& task, const Deliver& deliver, const QString& error) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QElapsedTimer>
 #include <QObject>
 #include <QString>
 #include <cstdint>
@@ -32,6 +33,9 @@ class Runner : public QObject {
 
   /// How long a cancelled job may take to stop before it is abandoned.
   static constexpr int kPatienceMs = 100;
+  /// Ten times a second looks like moving; without a graphics card a window that is drawn again
+  /// takes 20 to 60 ms of the machine.
+  static constexpr int kTellEveryMs = 100;
 
   /// In the application's own thread.
   explicit Runner(QObject* parent = nullptr);
@@ -60,7 +64,8 @@ class Runner : public QObject {
 
  Q_SIGNALS:
   void started(quint64 id);
-  /// `fraction` 0…1 of the whole job.
+  /// `fraction` 0…1 of the whole job. The latest at most every kTellEveryMs: each draws the window
+  /// again.
   void progressed(quint64 id, const QString& stage, double fraction, const QString& text);
   void finished(quint64 id);
   void cancelled(quint64 id);
@@ -70,10 +75,12 @@ class Runner : public QObject {
  private:
   struct Task;
   struct Mailbox;
+  void tell_progress(const std::shared_ptr<Task>& task);
   void take(const std::shared_ptr<Task>& task, const Deliver& deliver, const QString& error);
 
   std::shared_ptr<Mailbox> mailbox_;
   std::shared_ptr<Task> task_;
+  QElapsedTimer told_;  // Since the running job's last progressed().
   quint64 id_ = 0;
 };
 

@@ -105,6 +105,28 @@ TEST(BlurredPrint, IsTheMeanOverTheSpot) {
   RecordProperty("worst", std::to_string(worst));
 }
 
+// The coarser samples of plans: each value within what is said, and slopes, which decide what a
+// place measures, the same in the mean square to two percent.
+TEST(BlurredPrint, ThatOfPlansIsNearlyTheSame) {
+  for (const Target& target : {circle_grid(), squares(), test::charuco_target()}) {
+    const BlurredPrint fine(target);
+    const BlurredPrint plan(target, BlurredPrint::kPlanSpacing);
+    double worst = 0.0;
+    double fine_sum = 0.0;
+    double plan_sum = 0.0;
+    for (const Case& c : cases(fine, 400, 5)) {
+      const PrintSample a = fine.at(c.at, c.blur);
+      const PrintSample b = plan.at(c.at, c.blur);
+      worst = std::max(worst, std::abs(a.white - b.white));
+      fine_sum += a.gradient_per_m.squaredNorm();
+      plan_sum += b.gradient_per_m.squaredNorm();
+    }
+    EXPECT_LT(worst, 3e-3);
+    EXPECT_GT(worst, 2e-5) << "sampled as finely";
+    EXPECT_NEAR(plan_sum / fine_sum, 1.0, 0.02);
+  }
+}
+
 TEST(BlurredPrint, HasItsEdgesWhereTheyAreDrawn) {
   // Crossing of half white along a line over the lowest tag's left edge, x = 0.
   const BlurredPrint print(circle_grid());

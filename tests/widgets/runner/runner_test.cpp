@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "runner/runner.h"
 
+#include <QElapsedTimer>
 #include <QSignalSpy>
 #include <QTest>
 #include <atomic>
@@ -40,6 +41,34 @@ TEST(Runner, DeliversInTheInterfaceThreadAndReportsProgress) {
   ASSERT_EQ(progressed.count(), 1);
   EXPECT_EQ(progressed.first().at(1).toString(), "load");
   EXPECT_EQ(progressed.first().at(2).toDouble(), 0.5);
+}
+
+// A job that reports all the time is told of now and then, with what it reported last.
+TEST(Runner, TellsTheLatestProgressNowAndThen) {
+  Runner runner;
+  QSignalSpy progressed(&runner, &Runner::progressed);
+  QSignalSpy finished(&runner, &Runner::finished);
+  std::atomic<bool> reported = false;
+  std::atomic<bool> seen = false;
+  QElapsedTimer clock;
+  clock.start();
+  runner.start([&](const RunContext& context, const Post&) -> Deliver {
+    for (int k = 1; k <= 100; ++k) context.report("load", 0.001 * k, Message("point %1", k));
+    reported = true;
+    while (!seen) std::this_thread::sleep_for(1ms);
+    for (int k = 101; k <= 500; ++k) {
+      context.report("load", 0.001 * k, Message("point %1", k));
+      std::this_thread::sleep_for(1ms);
+    }
+    return {};
+  });
+  while (!reported) std::this_thread::sleep_for(1ms);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return progressed.count() > 0; }, 10'000));
+  EXPECT_EQ(progressed.first().at(2).toDouble(), 0.1);
+  seen = true;
+  ASSERT_TRUE(finished.wait(20'000));
+  EXPECT_GE(progressed.count(), 2);
+  EXPECT_LE(progressed.count(), 1 + clock.elapsed() / Runner::kTellEveryMs);
 }
 
 // The window is drawn first, whatever is computed with as many threads as there are processors.

@@ -70,7 +70,9 @@ TEST_F(MainWindowTest, TheDemoIsSimulatedRunAndFoundRight) {
   EXPECT_TRUE(find<QProgressBar>(*window_, "progress")->isVisible());
   EXPECT_FALSE(find<QAction>(*window_, "run")->isEnabled());
   ASSERT_TRUE(test::wait_for_result(*window_));
-  EXPECT_GT(progress.count(), 6);
+  ASSERT_GT(progress.count(), 0);
+  for (int k = 1; k < progress.count(); ++k)
+    EXPECT_GE(progress.at(k).at(1).toDouble(), progress.at(k - 1).at(1).toDouble());
   EXPECT_GT(iterations.count(), 6);
   EXPECT_EQ(boards.count(), 3);
   const auto truth = read_truth(folder_.filePath("data/demo-truth.json").toStdString());
