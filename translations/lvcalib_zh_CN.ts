@@ -6292,6 +6292,22 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
         <source>the one that predicts held-out images best</source>
         <translation>对未参与拟合的图像预测最好的模型</translation>
     </message>
+    <message>
+        <source>&amp;Start from</source>
+        <translation>起始相机(&amp;S)</translation>
+    </message>
+    <message>
+        <source>Nothing: all is found from the images</source>
+        <translation>无：全部由图像求得</translation>
+    </message>
+    <message>
+        <source>A camera.yaml that is about right, for images in which few corners are seen</source>
+        <translation>大致正确的 camera.yaml，用于只看得到少量角点的图像</translation>
+    </message>
+    <message>
+        <source>&amp;camera.yaml…</source>
+        <translation>camera.yaml(&amp;C)…</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::CameraForm</name>

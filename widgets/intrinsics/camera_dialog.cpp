@@ -27,11 +27,13 @@ CameraDialog::CameraDialog(Choices& choices, const QString& folder, QWidget* par
     : QDialog(parent),
       choices_(choices),
       start_folder_(folder),
-      labels_{new QLabel(this), new QLabel(this), new QLabel(this)},
+      labels_{new QLabel(this), new QLabel(this), new QLabel(this), new QLabel(this)},
       folder_(new QLineEdit(this)),
       choose_folder_(new QPushButton(this)),
       target_(new QLineEdit(this)),
       choose_target_(new QPushButton(this)),
+      camera_(new QLineEdit(this)),
+      choose_camera_(new QPushButton(this)),
       model_(new QComboBox(this)),
       text_(new QLabel(this)),
       page_(new CameraPage(this, CameraPage::Of::kPhotos)) {
@@ -41,6 +43,7 @@ CameraDialog::CameraDialog(Choices& choices, const QString& folder, QWidget* par
   const std::pair<QWidget*, const char*> named[] = {
       {folder_, "photos_folder"}, {choose_folder_, "photos_choose_folder"},
       {target_, "photos_target"}, {choose_target_, "photos_choose_target"},
+      {camera_, "photos_camera"}, {choose_camera_, "photos_choose_camera"},
       {model_, "photos_model"},   {text_, "photos_text"}};
   for (const auto& [widget, name] : named) widget->setObjectName(QString::fromLatin1(name));
   text_->setWordWrap(true);
@@ -49,14 +52,15 @@ CameraDialog::CameraDialog(Choices& choices, const QString& folder, QWidget* par
   for (const DistortionModel model : kModels)
     model_->addItem(QString::fromStdString(name_of(model)));
   auto* form = new QGridLayout;
-  QWidget* const fields[] = {folder_, target_, model_};
-  for (int row = 0; row < 3; ++row) {
+  QWidget* const fields[] = {folder_, target_, camera_, model_};
+  for (int row = 0; row < 4; ++row) {
     labels_[row]->setBuddy(fields[row]);
     form->addWidget(labels_[row], row, 0);
     form->addWidget(fields[row], row, 1);
   }
   form->addWidget(choose_folder_, 0, 2);
   form->addWidget(choose_target_, 1, 2);
+  form->addWidget(choose_camera_, 2, 2);
   form->setColumnStretch(1, 1);
   page_->setChoices(choices_);
   auto* layout = new QVBoxLayout(this);
@@ -78,9 +82,10 @@ bool CameraDialog::busy() const {
 void CameraDialog::connectParts() {
   connect(choose_folder_, &QPushButton::clicked, this, &CameraDialog::chooseFolder);
   connect(choose_target_, &QPushButton::clicked, this, &CameraDialog::chooseTarget);
+  connect(choose_camera_, &QPushButton::clicked, this, &CameraDialog::chooseCamera);
   // Return in a field reads it, and is no click on the first button.
   for (QPushButton* button : findChildren<QPushButton*>()) button->setAutoDefault(false);
-  for (QLineEdit* field : {folder_, target_})
+  for (QLineEdit* field : {folder_, target_, camera_})
     connect(field, &QLineEdit::editingFinished, this, [this, field] {
       if (!field->isModified()) return;
       field->setModified(false);
@@ -110,6 +115,14 @@ void CameraDialog::chooseTarget() {
   read();
 }
 
+void CameraDialog::chooseCamera() {
+  const QString path =
+      choices_.camera_to_open(this, folder_->text().isEmpty() ? start_folder_ : folder_->text());
+  if (path.isEmpty()) return;
+  camera_->setText(QDir::toNativeSeparators(path));
+  read();
+}
+
 void CameraDialog::read() {
   page_->setPhotos(std::nullopt);
   say({});
@@ -118,21 +131,30 @@ void CameraDialog::read() {
   wanted.folder = QDir::fromNativeSeparators(folder_->text()).toStdString();
   if (model_->currentIndex() > 0) wanted.options.model = kModels[model_->currentIndex() - 1];
   const std::filesystem::path target = QDir::fromNativeSeparators(target_->text()).toStdString();
-  runner_.start(
-      [this, wanted, target](const RunContext&, const Runner::Post&) mutable -> Runner::Deliver {
-        const auto images = find_camera_images(wanted.folder);
-        if (!images) return [this, error = images.error()] { say(core_text(error)); };
-        const auto board = read_target(target.empty() ? images->target : target);
-        if (!board) return [this, error = board.error()] { say(core_text(error)); };
-        wanted.images = images->images;
-        wanted.target = board->target;
-        return [this, wanted, warnings = board->warnings] {
-          QStringList lines = {tr("%n images.", nullptr, static_cast<int>(wanted.images.size()))};
-          for (const Message& warning : warnings) lines << core_text(warning);
-          say(lines.join(QLatin1Char(' ')));
-          page_->setPhotos(wanted);
-        };
-      });
+  const std::filesystem::path camera = QDir::fromNativeSeparators(camera_->text()).toStdString();
+  runner_.start([this, wanted, target, camera](const RunContext&,
+                                               const Runner::Post&) mutable -> Runner::Deliver {
+    const auto failed = [this](const Error& error) { return [=] { say(core_text(error)); }; };
+    const auto images = find_camera_images(wanted.folder);
+    if (!images) return failed(images.error());
+    const auto board = read_target(target.empty() ? images->target : target);
+    if (!board) return failed(board.error());
+    std::vector<Message> warnings = board->warnings;
+    if (!camera.empty()) {
+      const auto start = read_camera(camera);
+      if (!start) return failed(start.error());
+      wanted.options.start = start->camera;
+      warnings.insert(warnings.end(), start->warnings.begin(), start->warnings.end());
+    }
+    wanted.images = images->images;
+    wanted.target = board->target;
+    return [this, wanted, warnings] {
+      QStringList lines = {tr("%n images.", nullptr, static_cast<int>(wanted.images.size()))};
+      for (const Message& warning : warnings) lines << core_text(warning);
+      say(lines.join(QLatin1Char(' ')));
+      page_->setPhotos(wanted);
+    };
+  });
 }
 
 void CameraDialog::say(const QString& text) {
@@ -143,11 +165,16 @@ void CameraDialog::retranslate() {
   setWindowTitle(tr("A camera from images of the board"));
   labels_[0]->setText(tr("&Images"));
   labels_[1]->setText(tr("&Board"));
-  labels_[2]->setText(tr("Distortion &model"));
+  labels_[2]->setText(tr("&Start from"));
+  labels_[3]->setText(tr("Distortion &model"));
   folder_->setPlaceholderText(tr("A folder of images of the board, or a dataset"));
   target_->setPlaceholderText(tr("target.yaml in that folder"));
+  camera_->setPlaceholderText(tr("Nothing: all is found from the images"));
+  camera_->setToolTip(
+      tr("A camera.yaml that is about right, for images in which few corners are seen"));
   choose_folder_->setText(tr("&Folder…"));
   choose_target_->setText(tr("&target.yaml…"));
+  choose_camera_->setText(tr("&camera.yaml…"));
   model_->setItemText(0, tr("the one that predicts held-out images best"));
 }
 

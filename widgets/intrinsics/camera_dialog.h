@@ -34,6 +34,7 @@ class CameraDialog : public QDialog {
   void connectParts();
   void chooseFolder();
   void chooseTarget();
+  void chooseCamera();
   /// Reads what the fields name, in a worker thread: a folder of thousands of files takes a while.
   void read();
   void say(const QString& text);
@@ -41,11 +42,13 @@ class CameraDialog : public QDialog {
 
   Choices& choices_;
   QString start_folder_;
-  QLabel* labels_[3];
+  QLabel* labels_[4];
   QLineEdit* folder_;
   QPushButton* choose_folder_;
   QLineEdit* target_;
   QPushButton* choose_target_;
+  QLineEdit* camera_;
+  QPushButton* choose_camera_;
   QComboBox* model_;
   QLabel* text_;
   CameraPage* page_;

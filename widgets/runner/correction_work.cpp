@@ -64,7 +64,8 @@ Result<std::vector<CloudJob>> clouds_of(const fs::path& input, const fs::path& o
 }
 
 Result<CorrectionSummary> correct_one(const CloudJob& job, const StoredModel& model,
-                                      const CorrectionOptions& options, const RunContext& context) {
+                                      const CorrectionOptions& options, const RunContext& context,
+                                      std::vector<Message>& warnings) {
   auto cloud = read_cloud(job.from, context.stop, PointChoice::kAll);
   if (!cloud) return cloud.error();
   const auto summary = correct_cloud(*cloud, model.effects, model.scales, options, context);
@@ -76,6 +77,8 @@ Result<CorrectionSummary> correct_one(const CloudJob& job, const StoredModel& mo
   if (context.stopped()) return Error::cancelled();
   if (Status s = create_folder(fs::absolute(job.to).parent_path()); !s) return s.error();
   if (Status s = write_pcd(job.to, *cloud); !s) return s.error();
+  for (const Message& warning : cloud->warnings)
+    warnings.emplace_back("%1: %2", job.from.string(), warning);
   return *summary;
 }
 
@@ -121,7 +124,7 @@ Result<CorrectedClouds> correct_all(const CalibrationResult& result, const fs::p
                    Message::verbatim(job.from.filename().string()));
     RunContext silent = context;
     silent.progress = nullptr;
-    const auto one = correct_one(job, *model, options, silent);
+    const auto one = correct_one(job, *model, options, silent, out.warnings);
     if (context.stopped()) return Error::cancelled();
     if (one) {
       ++out.clouds;

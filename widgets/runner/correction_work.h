@@ -17,6 +17,7 @@ namespace lvcalib::widgets {
 struct CorrectedClouds {
   std::size_t clouds = 0;
   std::vector<Message> problems;  ///< Clouds that could not be corrected, and why.
+  std::vector<Message> warnings;  ///< Clouds that may not be whole, and why.
   CorrectionSummary total;        ///< Of all clouds together.
 };
 

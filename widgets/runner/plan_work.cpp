@@ -2,6 +2,7 @@
 #include "runner/plan_work.h"
 
 #include <utility>
+#include <vector>
 
 #include "cloud/cloud.h"
 #include "pipeline/model_discovery.h"
@@ -11,7 +12,8 @@ namespace {
 
 // The LiDAR that took the scenes: noise and density by its returns on the boards, the field of view
 // by a whole cloud.
-Result<LidarDescription> lidar_of_scenes(const PlanRequest& request, const RunContext& context) {
+Result<LidarDescription> lidar_of_scenes(const PlanRequest& request, const RunContext& context,
+                                         std::vector<Message>& warnings) {
   const CalibrationResult& result = *request.result;
   context.report("plan", 0.0, Message("collecting measurements"));
   const DiscoveryInput input = discovery_input(result);
@@ -26,15 +28,19 @@ Result<LidarDescription> lidar_of_scenes(const PlanRequest& request, const RunCo
   const MeasurementTable table = table_of(input, discovery_options(result).table);
   LidarDescription out = lidar_of(table, result.extrinsic.camera_from_lidar.transform);
   if (request.cloud.empty()) return out;
-  if (const auto cloud = read_cloud(request.cloud, context.stop))
+  if (const auto cloud = read_cloud(request.cloud, context.stop)) {
     take_field_of_view(*cloud, out.sensors);
+    for (const Message& warning : cloud->warnings)
+      warnings.emplace_back("%1: %2", request.cloud.string(), warning);
+  }
   return out;
 }
 
 Result<ScenePlan> plan(const PlanRequest& request, const RunContext& context) {
   PlanOptions options = request.options;
-  Result<LidarDescription> lidar =
-      request.lidar ? Result<LidarDescription>(*request.lidar) : lidar_of_scenes(request, context);
+  std::vector<Message> warnings;
+  Result<LidarDescription> lidar = request.lidar ? Result<LidarDescription>(*request.lidar)
+                                                 : lidar_of_scenes(request, context, warnings);
   if (!lidar) return lidar.error();
   if (context.stopped()) return Error::cancelled();
   if (request.result) {
@@ -46,7 +52,9 @@ Result<ScenePlan> plan(const PlanRequest& request, const RunContext& context) {
         if (scene.used) options.taken.push_back(scene.camera_from_board);
     }
   }
-  return plan_scenes(request.target, request.camera, *lidar, options, context);
+  auto out = plan_scenes(request.target, request.camera, *lidar, options, context);
+  if (out) out->warnings.insert(out->warnings.begin(), warnings.begin(), warnings.end());
+  return out;
 }
 
 }  // namespace

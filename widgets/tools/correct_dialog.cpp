@@ -239,6 +239,7 @@ QString CorrectDialog::summaryText() const {
                 "correction at its limits.")
                  .arg(all.held);
   }
+  for (const Message& warning : done_->warnings) lines << core_text(warning);
   for (const Message& problem : done_->problems) lines << core_text(problem);
   return lines.join(QLatin1Char('\n'));
 }

@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/file_io.h"
 #include "intrinsics/camera_page.h"
 #include "modelling/residual_map_plot.h"
 #include "simulation/dataset_writer.h"
@@ -114,6 +115,31 @@ TEST_F(CameraDialogTest, AFolderOfImagesBecomesACamera) {
   EXPECT_EQ(dialog_.page().calibration()->camera.model, DistortionModel::kEquidistant);
 }
 
+TEST_F(CameraDialogTest, StartsFromACameraThatIsAboutRight) {
+  answers_.camera = photos().folder.filePath("rough.yaml");
+  Camera rough = photos().truth;
+  rough.fx *= 1.05;
+  rough.fy *= 1.05;
+  ASSERT_TRUE(write_file_atomically(answers_.camera.toStdString(), to_yaml(rough)).ok());
+  choose("photos");
+  button("photos_choose_camera")->click();
+  ASSERT_TRUE(settled());
+  button("camera_calibrate")->click();
+  ASSERT_TRUE(
+      test::wait_until([this] { return dialog_.page().calibration() && !dialog_.busy(); }, 60'000));
+  const auto made = dialog_.page().calibration();
+  EXPECT_NEAR(made->camera.fx, photos().truth.fx, 4.0 * made->sigma(0));
+  // One of images of another size is no start for these.
+  rough.width_px += 100;
+  ASSERT_TRUE(write_file_atomically(answers_.camera.toStdString(), to_yaml(rough)).ok());
+  button("photos_choose_camera")->click();
+  ASSERT_TRUE(settled());
+  button("camera_calibrate")->click();
+  ASSERT_TRUE(settled());
+  EXPECT_EQ(dialog_.page().calibration(), nullptr);
+  EXPECT_FALSE(find<QLabel>(dialog_, "camera_message")->text().isEmpty());
+}
+
 TEST_F(CameraDialogTest, SaysWhatIsWrongWithWhatIsChosen) {
   choose("nothing");
   EXPECT_TRUE(said().contains("nothing")) << said().toStdString();
@@ -124,6 +150,14 @@ TEST_F(CameraDialogTest, SaysWhatIsWrongWithWhatIsChosen) {
   ASSERT_TRUE(settled());
   EXPECT_TRUE(said().contains("absent.yaml")) << said().toStdString();
   EXPECT_FALSE(button("camera_calibrate")->isEnabled());
+  answers_.target = photos().at("photos/target.yaml");
+  button("photos_choose_target")->click();
+  answers_.camera = photos().at("no-camera.yaml");
+  button("photos_choose_camera")->click();
+  ASSERT_TRUE(settled());
+  EXPECT_TRUE(said().contains("no-camera.yaml")) << said().toStdString();
+  EXPECT_FALSE(button("camera_calibrate")->isEnabled());
+  find<QLineEdit>(dialog_, "photos_camera")->clear();
   // A board that none of the images shows.
   answers_.target = photos().at("other.yaml");
   button("photos_choose_target")->click();

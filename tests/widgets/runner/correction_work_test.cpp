@@ -6,6 +6,7 @@
 #include <QTemporaryDir>
 #include <QTest>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 
 #include <gtest/gtest.h>
@@ -76,6 +77,17 @@ TEST_F(CorrectionWorkTest, WhatIsToBeSkippedStays) {
   correct("a.pcd", "c.pcd", options);
   ASSERT_TRUE(error_.has_value());
   EXPECT_EQ(error_->kind, ErrorKind::kUsage);
+}
+
+TEST_F(CorrectionWorkTest, CloudsThatMayNotBeWholeAreNamed) {
+  write("run/a.pcd");
+  write("run/b.pcd");
+  std::ofstream(folder_.filePath("run/b.pcd").toStdString(), std::ios::app) << "more";
+  correct("run", "out");
+  ASSERT_TRUE(done_.has_value()) << error_->text();
+  EXPECT_EQ(done_->clouds, 2U);
+  ASSERT_EQ(done_->warnings.size(), 1U);
+  EXPECT_NE(done_->warnings[0].text().find("b.pcd: "), std::string::npos);
 }
 
 TEST_F(CorrectionWorkTest, FoldersWithoutCloudsAndMissingOnesAreErrors) {

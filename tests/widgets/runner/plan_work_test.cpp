@@ -2,9 +2,12 @@
 #include "runner/plan_work.h"
 
 #include <QSignalSpy>
+#include <QTemporaryDir>
+#include <fstream>
 
 #include <gtest/gtest.h>
 
+#include "cloud/cloud.h"
 #include "widgets/support/calibrated_demo.h"
 
 namespace lvcalib::widgets::plan_work_test {
@@ -44,6 +47,23 @@ TEST_F(PlanWorkTest, TheLidarIsThatOfTheScenes) {
   EXPECT_EQ(plan_->camera_from_lidar.translation,
             result.extrinsic.camera_from_lidar.transform.translation);
   EXPECT_TRUE(plan_->scenes.front().determined);
+}
+
+TEST_F(PlanWorkTest, ACloudThatMayNotBeWholeIsNamed) {
+  const QTemporaryDir folder;
+  PlanRequest request = going_on();
+  request.cloud = folder.filePath("cloud.pcd").toStdString();
+  Cloud cloud;
+  for (int i = 0; i < 50; ++i)
+    cloud.points_m.emplace_back(3.0F, 0.1F * static_cast<float>(i), 0.0F);
+  ASSERT_TRUE(write_pcd(request.cloud, cloud).ok());
+  std::ofstream(request.cloud, std::ios::app) << "more";
+  QSignalSpy ended(&work_, &PlanWork::ended);
+  work_.request(request);
+  ASSERT_TRUE(ended.wait(60'000));
+  ASSERT_TRUE(plan_) << (error_ ? error_->text() : "");
+  ASSERT_FALSE(plan_->warnings.empty());
+  EXPECT_NE(plan_->warnings[0].text().find("cloud.pcd: "), std::string::npos);
 }
 
 TEST_F(PlanWorkTest, WithoutTheForwardModelALidarMustBeGiven) {
