@@ -377,10 +377,11 @@ Message split_apart(const CalibrationResult& result) {
 }  // namespace
 
 Message diagnose_bump(const CalibrationResult& result) {
-  // Scenes are taken in the order of their names.
+  // Scenes are taken in the order of their names. Those whose images are turned are told of as that.
   std::vector<std::size_t> order;
   for (std::size_t s = 0; s < result.scenes.size(); ++s) {
-    if (result.scenes[s].used || result.scenes[s].contradicts) order.push_back(s);
+    const SceneResult& scene = result.scenes[s];
+    if (scene.used || (scene.contradicts && !scene.turned_image)) order.push_back(s);
   }
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return result.scenes[a].name < result.scenes[b].name;
