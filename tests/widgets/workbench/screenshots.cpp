@@ -380,7 +380,9 @@ void photograph_last_bubble(widgets::MainWindow& window, Photographer& camera) {
   auto* coach = test::find<widgets::CoachMarks>(window, "coach_marks");
   auto* next = test::find<QPushButton>(window, "coach_next");
   if (coach == nullptr || next == nullptr) return;
-  while (next->isVisible() && next->isEnabled()) {
+  // The bubble looks every fifth of a second whether what it waits for is there.
+  const auto can_go_on = [next] { return next->isVisible() && next->isEnabled(); };
+  while (test::wait_until(can_go_on, 2'000)) {
     next->click();
     QTest::qWait(300);
   }
