@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 
@@ -143,6 +144,12 @@ double normal_pdf(double x) {
 
 double chi_square_gate(int degrees_of_freedom, double tail) {
   return 2.0 * boost::math::gamma_q_inv(0.5 * degrees_of_freedom, tail, Plain());
+}
+
+double f_gate(int degrees_of_freedom, double noise_freedom, double tail) {
+  if (!(noise_freedom >= 1.0)) return std::numeric_limits<double>::infinity();
+  const boost::math::fisher_f_distribution<double, Plain> f(degrees_of_freedom, noise_freedom);
+  return degrees_of_freedom * boost::math::quantile(boost::math::complement(f, tail));
 }
 
 }  // namespace lvcalib

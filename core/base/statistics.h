@@ -56,4 +56,9 @@ double normal_pdf(double x);
 /// degree of freedom.
 double chi_square_gate(int degrees_of_freedom, double tail);
 
+/// The same for squares whose unit, a variance, is itself an estimate from `noise_freedom`
+/// residuals: degrees_of_freedom times the upper quantile of the F distribution. Infinite where no
+/// residual tells the noise.
+double f_gate(int degrees_of_freedom, double noise_freedom, double tail);
+
 }  // namespace lvcalib

@@ -37,12 +37,12 @@ Camera in_model(Camera camera, DistortionModel model) {
   return camera;
 }
 
-// Twice the gain in log-likelihood of Gaussian corners.
+// By F-test: with few corners a fit that is better by chance looks much better.
 bool fits_better(const IntrinsicsFit& other, const IntrinsicsFit& given, double false_alarm) {
-  const double gain = 2.0 * static_cast<double>(given.rows) *
-                      std::log(given.sigma_px / std::max(1e-9, other.sigma_px));
+  const double variance = std::pow(std::max(1e-9, other.sigma_px), 2);
+  const double squares = given.freedom * std::pow(given.sigma_px, 2) - other.freedom * variance;
   const int more = other.camera.distortion_count() - given.camera.distortion_count();
-  return gain > chi_square_gate(std::max(1, more), false_alarm);
+  return squares > variance * f_gate(std::max(1, more), other.freedom, false_alarm);
 }
 
 }  // namespace

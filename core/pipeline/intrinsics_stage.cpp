@@ -127,8 +127,16 @@ GlobalPrior prior_with(GlobalPrior prior, const IntrinsicsVector& sigma) {
   return prior;
 }
 
+// Of the corners' noise in a joint solve with the intrinsics freed. Of a board's pose the LiDAR
+// tells distance and tilt better than its corners do, and these the rest.
+double joint_freedom(const std::vector<CornerView>& views, const Camera& camera) {
+  double out = -4.0 - camera.distortion_count();
+  for (const CornerView& view : views) out += 2.0 * static_cast<double>(view.corners->size()) - 3.0;
+  return out;
+}
+
 // To first order about a solve with the intrinsics held: does its data ask for others?
-bool first_look(const ForwardSolution& forward, const Camera& given) {
+bool first_look(const ForwardSolution& forward, const Camera& given, double noise_freedom) {
   if (boards_disagree(forward)) return true;
   const IntrinsicsVector wide = wide_intrinsics_sigma(given);
   std::vector<const GlobalTerm*> terms;
@@ -137,7 +145,7 @@ bool first_look(const ForwardSolution& forward, const Camera& given) {
   if (!step) return false;
   const IntrinsicsVector values = intrinsics_of(given);
   return contrast_intrinsics(values + step->step.segment<kIntrinsics>(kFirstIntrinsic), values,
-                             step->covariance, wide, kFirstLook)
+                             step->covariance, wide, noise_freedom, kFirstLook)
       .contradicts();
 }
 
@@ -226,7 +234,8 @@ void check_against_prior(CalibrationResult& result, const std::vector<CornerView
   IntrinsicsReport& report = result.intrinsics;
   const IntrinsicsContrast contrast = contrast_intrinsics(
       intrinsics_of(result.camera), intrinsics_of(report.given), result.forward->globals_covariance,
-      report.prior_sigma, result.options.intrinsics.false_alarm);
+      report.prior_sigma, joint_freedom(views, report.given),
+      result.options.intrinsics.false_alarm);
   // The estimate may be off by the prior's spread and by its own; what exceeds both contradicts.
   double chi = 0.0;
   int dof = 0;
@@ -304,7 +313,7 @@ Message contradicted_by(const std::vector<CornerView>& views, const Camera& give
   if (!fit) return {};
   const IntrinsicsContrast contrast =
       contrast_intrinsics(intrinsics_of(fit->camera), intrinsics_of(given), fit->covariance,
-                          wide_intrinsics_sigma(given), false_alarm);
+                          wide_intrinsics_sigma(given), fit->freedom, false_alarm);
   return contrast.contradicts() ? describe(contrast, given, views) : Message();
 }
 
@@ -374,6 +383,28 @@ void free_camera(CalibrationResult& result) {
     }
   }
   report.evidence = intrinsics_evidence(extra_views(report), result.camera, fit->sigma_px);
+}
+
+std::optional<CornerMisfit> corner_misfit(const CalibrationResult& result, double false_alarm) {
+  const double own_px = result.extrinsic.sigma_px;
+  if (result.intrinsics.replicate_px > 0.0) {
+    const CornerMisfit misfit{own_px, result.intrinsics.replicate_px};
+    return misfit.px > kCornersMiss * misfit.noise_px ? std::optional(misfit) : std::nullopt;
+  }
+  if (!result.forward) return std::nullopt;
+  double rows = 0.0;
+  double views = 0.0;
+  for (const SceneResult& scene : result.scenes) {
+    if (!scene.used || !scene.view) continue;
+    rows += 2.0 * static_cast<double>(scene.view->corners.size());
+    views += 1.0;
+  }
+  const double freedom = rows - 6.0 * views;
+  if (freedom < 1.0) return std::nullopt;
+  const CornerMisfit misfit{result.forward->noise.corner_px, own_px};
+  const double chance = f_gate(static_cast<int>(std::lround(rows)), freedom, false_alarm) / rows;
+  const double gate = std::max(kCornersMiss * kCornersMiss, chance);
+  return std::pow(misfit.px, 2) > gate * std::pow(own_px, 2) ? std::optional(misfit) : std::nullopt;
 }
 
 LeftOutSizes left_out_sizes(const CalibrationResult& result) {
@@ -591,19 +622,23 @@ Status check_intrinsics(CalibrationResult& result,
   if (corners) {
     report.replicate_px = corners->replicate_px;
     of_corners = contrast_intrinsics(intrinsics_of(corners->camera), intrinsics_of(given),
-                                     corners->covariance, wide, alarm);
+                                     corners->covariance, wide, corners->freedom, alarm);
   }
   const bool clear = of_corners.contradicts();
-  const bool open =
-      of_corners.dof > 0 && of_corners.chi_square > chi_square_gate(of_corners.dof, kFirstLook);
-  if (!clear && !open && !better && !(result.forward && first_look(*result.forward, given)))
+  const bool open = of_corners.dof > 0 &&
+                    of_corners.chi_square > f_gate(of_corners.dof, corners->freedom, kFirstLook);
+  const double freedom = joint_freedom(views, given);
+  // Few corners' noise holds what the camera is off by, and hides it from a first look.
+  const bool few = !(report.replicate_px > 0.0);
+  if (!clear && !open && !better && !few &&
+      !(result.forward && first_look(*result.forward, given, freedom)))
     return Done{};
   const auto freed = solve(clear ? &*corners : nullptr);
   if (context.stopped()) return Error::cancelled();
   IntrinsicsContrast of_all;
   if (freed)
     of_all = contrast_intrinsics(intrinsics_of(freed->state.camera), intrinsics_of(given),
-                                 freed->globals_covariance, wide, alarm);
+                                 freed->globals_covariance, wide, freedom, alarm);
   if (clear || of_all.contradicts()) {
     IntrinsicsContradiction found;
     found.contrast = of_all.contradicts() ? of_all : of_corners;

@@ -72,6 +72,23 @@ void free_camera(CalibrationResult& result);
 /// Standard deviations with which the joint solve draws the intrinsics to the given ones.
 IntrinsicsVector solve_prior(const IntrinsicsReport& report);
 
+/// What corners miss their model by, where that is more than their noise.
+struct CornerMisfit {
+  double px = 0.0;
+  double noise_px = 0.0;
+};
+
+/// Corners miss by more than their noise from this ratio on: four times the square, with dozens of
+/// them no chance.
+inline constexpr double kCornersMiss = 2.0;
+
+/// Boards with corners enough for replicates: what poses of their own leave, if it is more than
+/// kCornersMiss times what replicates scatter. Boards
+/// without, as a single tag: what the joint solve leaves of their corners, if it is as much more
+/// than what poses of their own leave, and more than chance makes it (F-test with the probability
+/// `false_alarm`); a pose follows few corners, whatever the camera is.
+std::optional<CornerMisfit> corner_misfit(const CalibrationResult& result, double false_alarm);
+
 /// Sizes of the faults that the calibration's solve leaves out.
 LeftOutSizes left_out_sizes(const CalibrationResult& result);
 

@@ -307,32 +307,32 @@ void judge_missing(const CalibrationResult& result, Verdict& verdict) {
   }
 }
 
-// What corners miss their model by beyond what replicates of them scatter is no noise. Were it
-// alike in all scenes, it would turn the camera by the angle that it subtends, and move it by as
-// much at the boards' distance.
+// What corners miss their model by beyond their noise. Were it alike in all scenes, it would turn
+// the camera by the angle that it subtends, and move it by as much at the boards' distance.
 void judge_corners(const CalibrationResult& result, const QualityOptions& options,
                    Verdict& verdict) {
-  constexpr double kNotNoise = 2.0;  // Four times the noise's square: with dozens no chance.
   const ExtrinsicSolution& x = result.extrinsic;
   const double noise_px = result.intrinsics.replicate_px;
-  // What another distortion model mends is told as that.
-  const auto& contradiction = result.intrinsics.contradiction;
-  if (contradiction && contradiction->better_model && noise_px > 0.0 &&
-      contradiction->better_px < kNotNoise * noise_px)
-    return;
   if (x.sigma_px > options.max_sigma_px && !(noise_px > 0.0)) {
     verdict.doubtful(
         Message("tag corners miss their model by %1 px: check the intrinsics and that the board is "
                 "flat",
                 formatted("%.2f", x.sigma_px)));
   }
-  if (!(noise_px > 0.0) || x.sigma_px < kNotNoise * noise_px) return;
+  const auto misfit = corner_misfit(result, result.options.intrinsics.false_alarm);
+  if (!misfit) return;
+  // What another camera or another distortion model mends is told as that.
+  const auto& contradiction = result.intrinsics.contradiction;
+  if (contradiction && (noise_px > 0.0 ? contradiction->better_model &&
+                                             contradiction->better_px < kCornersMiss * noise_px
+                                       : contradiction->matters))
+    return;
   std::vector<double> distances;
   for (const SceneSolution& scene : x.scenes) {
     if (scene.used) distances.push_back(scene.camera_from_board.translation.norm());
   }
   if (distances.empty()) return;
-  const double turn = std::sqrt(x.sigma_px * x.sigma_px - noise_px * noise_px) /
+  const double turn = std::sqrt(misfit->px * misfit->px - misfit->noise_px * misfit->noise_px) /
                       std::min(result.camera.fx, result.camera.fy);
   const double shift_m = turn * median(std::move(distances));
   if (turn < options.tolerance_rad && shift_m < options.tolerance_m) return;
@@ -340,8 +340,8 @@ void judge_corners(const CalibrationResult& result, const QualityOptions& option
       "tag corners miss their model by %1 px, where their own noise is %2 px: that may move "
       "the extrinsic by up to %3 mm and %4 mrad; check the intrinsics, the sizes in "
       "target.yaml and that the board is flat",
-      formatted("%.2f", x.sigma_px), formatted("%.2f", noise_px), formatted("%.1f", 1e3 * shift_m),
-      formatted("%.2f", 1e3 * turn)));
+      formatted("%.2f", misfit->px), formatted("%.2f", misfit->noise_px),
+      formatted("%.1f", 1e3 * shift_m), formatted("%.2f", 1e3 * turn)));
 }
 
 // Which scenes are out of use and why; equal reasons once.

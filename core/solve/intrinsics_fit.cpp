@@ -299,16 +299,16 @@ std::optional<IntrinsicsFit> fit_intrinsics(const std::vector<CornerView>& views
   if (corners < kFewestCorners) return std::nullopt;
   const IntrinsicsVector given = intrinsics_of(camera);
   const auto free = static_cast<double>((prior.array() > 0.0).count());
+  const double freedom =
+      2.0 * static_cast<double>(corners) - 6.0 * static_cast<double>(views.size()) - free;
   // The first pass bridges whatever the given camera misses by; then σ from the residuals.
   double sigma = 1.0;
   CornerEquations at;
   for (int round = 0; round < 6; ++round) {
     if (!solve_bundle(views, given, prior, sigma, state)) return std::nullopt;
     at = linearize_corners(views, state, sigma, true);
-    const double dof =
-        static_cast<double>(at.rows) - 6.0 * static_cast<double>(views.size()) - free;
-    if (dof < 1.0) break;
-    const double next = std::max(kFloor_px, std::sqrt(at.squares / dof));
+    if (freedom < 1.0) break;
+    const double next = std::max(kFloor_px, std::sqrt(at.squares / freedom));
     const bool settled = std::abs(std::log(next / sigma)) < 0.02;
     sigma = next;
     if (settled) break;
@@ -323,6 +323,7 @@ std::optional<IntrinsicsFit> fit_intrinsics(const std::vector<CornerView>& views
   out.covariance = prior.asDiagonal() * factor.solve(Matrix12::Identity()) * prior.asDiagonal();
   out.sigma_px = sigma;
   out.rows = at.rows;
+  out.freedom = freedom;
   if (!out.covariance.allFinite() || !check(out.camera)) return std::nullopt;
   std::vector<CornerView> fitted = views;
   for (std::size_t v = 0; v < views.size(); ++v) fitted[v].camera_from_board = state.poses[v];
@@ -365,7 +366,8 @@ double replicate_noise(const std::vector<CornerView>& views, const Camera& camer
 IntrinsicsContrast contrast_intrinsics(const IntrinsicsVector& estimated,
                                        const IntrinsicsVector& given,
                                        const Eigen::MatrixXd& covariance,
-                                       const IntrinsicsVector& prior, double false_alarm) {
+                                       const IntrinsicsVector& prior, double noise_freedom,
+                                       double false_alarm) {
   IntrinsicsContrast out;
   const bool joint = covariance.rows() >= kGlobals;
   const Eigen::Index first = joint ? kFirstIntrinsic : 0;
@@ -395,7 +397,7 @@ IntrinsicsContrast contrast_intrinsics(const IntrinsicsVector& estimated,
     ++out.dof;
   }
   if (out.dof == 0) return out;
-  out.gate = chi_square_gate(out.dof, false_alarm);
+  out.gate = f_gate(out.dof, noise_freedom, false_alarm);
 
   // Frees some parts and holds the rest as given. What that costs (χ², and two for each number that
   // is free, after Akaike), if it is chance.
@@ -441,7 +443,7 @@ IntrinsicsContrast contrast_intrinsics(const IntrinsicsVector& estimated,
       into.correction = correction.head<6>();
       into.covariance = rest.topLeftCorner<6, 6>();
     }
-    if (chi > chi_square_gate(static_cast<int>(std::max<Eigen::Index>(1, m)), false_alarm))
+    if (chi > f_gate(static_cast<int>(std::max<Eigen::Index>(1, m)), noise_freedom, false_alarm))
       return std::nullopt;
     return chi + 2.0 * static_cast<double>(n - m);
   };

@@ -44,8 +44,9 @@ struct IntrinsicsFit {
   Eigen::Matrix<double, kIntrinsics, kIntrinsics> covariance;
   double sigma_px = 0.0;  ///< Of one coordinate, from the residuals.
   double replicate_px =
-      0.0;  ///< The same from replicates (see replicate_noise); 0 if there are few.
-  std::size_t rows = 0;
+      0.0;               ///< The same from replicates (see replicate_noise); 0 if there are few.
+  std::size_t rows = 0;  ///< Coordinates.
+  double freedom = 0.0;  ///< Of them, what poses and intrinsics leave.
 };
 
 /// Bundle adjustment of one camera over views of a board: minimises Σ|z − π(T P)|²/σ² with
@@ -77,7 +78,7 @@ enum class IntrinsicsPart { kFocalLength, kPrincipalPoint, kDistortion };
 struct IntrinsicsContrast {
   double chi_square = 0.0;  ///< Against "the given ones are right".
   int dof = 0;              ///< Directions of the intrinsics that the data determine.
-  double gate = 0.0;        ///< χ² that chance exceeds with the given probability.
+  double gate = 0.0;        ///< What chance exceeds with the given probability.
   [[nodiscard]] bool contradicts() const { return dof > 0 && chi_square > gate; }
   /// The fewest parts that mend it when freed, the rest held as given; of as many, those with the
   /// least χ² and two for each number that is free (Akaike).
@@ -95,11 +96,13 @@ struct IntrinsicsContrast {
 
 /// Compares `estimated` (with the data's `prior`) with `given`. `covariance` is 12 × 12 of the
 /// intrinsics, or of all globals of a joint solve. In coordinates scaled by the prior, an estimate
-/// of posterior variance c scatters by c(1 − c) if the given value is right.
+/// of posterior variance c scatters by c(1 − c) if the given value is right. `noise_freedom`: of
+/// the corners' noise in it; a few corners can look a tenth as noisy as they are (see f_gate()).
 IntrinsicsContrast contrast_intrinsics(const IntrinsicsVector& estimated,
                                        const IntrinsicsVector& given,
                                        const Eigen::MatrixXd& covariance,
-                                       const IntrinsicsVector& prior, double false_alarm);
+                                       const IntrinsicsVector& prior, double noise_freedom,
+                                       double false_alarm);
 
 /// "the focal length is 10.02 ± 0.04 % too long", "the principal point is off by 5.1 px", …; the
 /// distortion's size is how far it moves the corners of `views` at most. Alternatives follow with

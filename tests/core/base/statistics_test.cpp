@@ -133,5 +133,14 @@ TEST(Statistics, ChiSquareGateAgreesWithTables) {
   EXPECT_TRUE(std::isnan(chi_square_gate(0, 0.01)));
 }
 
+TEST(Statistics, GatesOfEstimatedNoise) {
+  // Tables of F: 5 % and 1 %.
+  EXPECT_NEAR(f_gate(1, 1.0, 0.05), 161.448, 1e-2);
+  EXPECT_NEAR(f_gate(3, 10.0, 0.05), 3.0 * 3.7083, 1e-3);
+  EXPECT_NEAR(f_gate(8, 8.0, 0.01), 8.0 * 6.0289, 1e-3);
+  EXPECT_NEAR(f_gate(5, 1e9, 1e-3), chi_square_gate(5, 1e-3), 1e-4);
+  EXPECT_TRUE(std::isinf(f_gate(5, 0.0, 1e-3)));
+}
+
 }  // namespace
 }  // namespace lvcalib

@@ -12,6 +12,7 @@
 #include "base/random.h"
 #include "pipeline/calibration.h"
 #include "pipeline/camera_calibration.h"
+#include "support/ordinary_boards.h"
 #include "support/simulated_dataset.h"
 
 namespace lvcalib {
@@ -142,6 +143,65 @@ TEST(Calibrate, NamesADistortionModelThatPredictsBetter) {
   ASSERT_TRUE(found.camera_from_lidar);
   EXPECT_LT(rotation_distance_rad(truth, found.camera_from_lidar->transform),
             0.5 * rotation_distance_rad(truth, result->extrinsic.camera_from_lidar.transform));
+}
+
+// Poses follow the four corners of a tag, and its noise, whatever the camera is: what the ranges
+// say tells.
+TEST(Calibrate, NamesAWrongFocalLengthOfASingleTag) {
+  for (const int scenes : {3, 5}) {
+    simulation::SimulationOptions options = test::dataset_options(31, scenes);
+    options.target = test::single_tag_target();
+    const test::SimulatedDataset data(options);
+    const Rigid3& truth = data.rig().camera_from_lidar;
+    for (const double factor : {1.0, 1.01, 1.1}) {
+      Dataset dataset = data.open();
+      dataset.camera.fx *= factor;
+      dataset.camera.fy *= factor;
+      const auto result = calibrate(dataset, {}, {});
+      ASSERT_TRUE(result.ok()) << result.error().text();
+      const auto& found = result->intrinsics.contradiction;
+      if (factor == 1.0) {
+        EXPECT_EQ(result->quality, Quality::kGood) << scenes;
+        EXPECT_FALSE(found) << found->what.text();
+        continue;
+      }
+      EXPECT_EQ(result->quality, Quality::kDoubtful) << scenes << ", " << factor;
+      ASSERT_TRUE(found) << scenes << ", " << factor;
+      EXPECT_THAT(found->what.text(), HasSubstr("the focal length is"));
+      const double error_m = translation_distance_m(
+          truth.inverse(), result->extrinsic.camera_from_lidar.transform.inverse());
+      EXPECT_GT(error_m, 0.01) << "too small a fault to be noticed";
+      EXPECT_LT(error_m, 2.0 * std::sqrt(result->covariance_total.topLeftCorner<3, 3>().trace()));
+    }
+  }
+}
+
+// What the joint solve leaves of a few corners, against what poses of their own leave.
+TEST(CornerMisfit, OfFewCornersIsThatOfTheJointSolve) {
+  CalibrationResult result;
+  result.extrinsic.sigma_px = 0.02;
+  result.forward.emplace();
+  BoardView view;
+  view.corners.resize(4);
+  for (int s = 0; s < 3; ++s) {
+    result.scenes.emplace_back();
+    result.scenes.back().used = true;
+    result.scenes.back().view = view;
+  }
+  // 24 coordinates, six of them left by the poses: F(24, 6) exceeds 16.9 once in a thousand times.
+  const double gate = std::sqrt(16.9);
+  result.forward->noise.corner_px = 0.97 * gate * 0.02;
+  EXPECT_FALSE(corner_misfit(result, 0.001));
+  result.forward->noise.corner_px = 1.03 * gate * 0.02;
+  const auto misfit = corner_misfit(result, 0.001);
+  ASSERT_TRUE(misfit);
+  EXPECT_EQ(misfit->px, result.forward->noise.corner_px);
+  EXPECT_EQ(misfit->noise_px, 0.02);
+  // Replicates say what the noise is.
+  result.intrinsics.replicate_px = 0.019;
+  EXPECT_FALSE(corner_misfit(result, 0.001));
+  result.intrinsics.replicate_px = 0.009;
+  EXPECT_EQ(corner_misfit(result, 0.001)->px, 0.02);
 }
 
 }  // namespace

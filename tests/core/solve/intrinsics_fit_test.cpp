@@ -79,7 +79,7 @@ IntrinsicsContrast contrast_of(const Views& views, const Camera& given) {
   EXPECT_TRUE(fit);
   if (!fit) return {};
   return contrast_intrinsics(intrinsics_of(fit->camera), intrinsics_of(given), fit->covariance,
-                             wide, kAlarm);
+                             wide, fit->freedom, kAlarm);
 }
 
 // Any start within what happens; the estimate is within four standard deviations of the truth.
