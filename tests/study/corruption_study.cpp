@@ -5,7 +5,8 @@
 //   corruption_study [RIGS] [FIRST_SEED] [FOLDER] [KIND] [FIRST_INDEX]
 //
 // Rig k, counted from FIRST_INDEX (0), takes the k-th of three scanners in turn and three to six
-// scenes; seeds are consecutive. With KIND only corruptions whose name holds the word. Every run is
+// scenes, and from the fourth on a single tag, a ChArUco board and a checkerboard in turn instead of
+// the board with circles; seeds are consecutive. With KIND only corruptions whose name holds the word. Every run is
 // a process of its own, so that a crash is counted and not the end.
 #include <array>
 #include <cstdio>
@@ -20,6 +21,7 @@
 #include "evidence_rigs.h"
 #include "simulation/simulator.h"
 #include "support/corruptions.h"
+#include "support/ordinary_boards.h"
 
 namespace {
 
@@ -35,6 +37,11 @@ simulation::SimulationOptions rig_options(int index, std::uint64_t seed) {
   options.image.width_px = 800;
   options.image.height_px = 500;
   if (options.lidar.kind != LidarKind::kSpinning) options.lidar.points = 60'000;
+  constexpr int kWithCircles = 3;
+  const std::array others = {test::single_tag_target, test::charuco_target,
+                             test::checkerboard_target};
+  if (index >= kWithCircles)
+    options.target = others[static_cast<std::size_t>(index - kWithCircles) % others.size()]();
   return options;
 }
 
