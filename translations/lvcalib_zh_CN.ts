@@ -5157,6 +5157,10 @@ were saved. Take them up again?</source>
         <source>the joint solve has not come to rest after %1 steps</source>
         <translation>联合求解在 %1 步之后仍未收敛</translation>
     </message>
+    <message>
+        <source>the board is not found in the cloud: something stands where the other scenes put it, with too few lines or points to tell its print</source>
+        <translation>点云中未找到标定板：在其他场景所指的位置上有物体，但其上的扫描线或点太少，无法辨认印刷图案</translation>
+    </message>
 </context>
 <context>
     <name>CoreWords</name>

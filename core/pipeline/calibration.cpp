@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include "base/parallel.h"
@@ -236,6 +237,10 @@ Message missing_board(const SceneResult& scene) {
           "the board is not found in the cloud (%1); something nearer stands where the image has "
           "it: does the image belong to this cloud, or is the board hidden from the LiDAR?",
           search);
+    case BoardPlace::kTaken:
+      return Message(
+          "the board is not found in the cloud: something stands where the other scenes put it, "
+          "with too few lines or points to tell its print");
     case BoardPlace::kOpen:
       break;
   }
@@ -387,6 +392,19 @@ Status explain_disagreement(const CalibrationInput& in, CalibrationResult& resul
   return in.context.stopped() ? Status(Error::cancelled()) : Status(Done{});
 }
 
+// What was found elsewhere is the board, though something stands at its place, if it shows the
+// print as clearly as some scene does that agrees with others.
+bool shows_print(const CalibrationResult& result, const BoardSearchResult& search) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t s = 0; s < result.scenes.size(); ++s) {
+    const auto& chosen = result.consensus.chosen[s];
+    if (chosen) least = std::min(least, result.scenes[s].search->candidates[*chosen].gain);
+  }
+  return std::any_of(
+      search.candidates.begin(), search.candidates.end(),
+      [&](const BoardCandidate& c) { return c.correlation > 0.0 && c.gain >= least; });
+}
+
 Status agree(const CalibrationInput& in, Calibration& run) {
   in.context.report("localize", 0.7, Message("comparing scenes"));
   auto consensus = decide(in, run.result);
@@ -418,8 +436,8 @@ Status agree(const CalibrationInput& in, Calibration& run) {
     SceneResult& scene = run.result.scenes[s];
     scene.chosen = run.result.consensus.chosen[s];
     if (!scene.reason.empty() || scene.chosen) continue;
-    const bool elsewhere = scene.search && !scene.search->candidates.empty();
-    if (elsewhere && scene.insisted) {
+    const bool found = scene.search && !scene.search->candidates.empty();
+    if (found && scene.insisted) {
       const auto& all = scene.search->candidates;
       const auto best = std::max_element(
           all.begin(), all.end(), [](const auto& a, const auto& b) { return a.gain < b.gain; });
@@ -428,7 +446,10 @@ Status agree(const CalibrationInput& in, Calibration& run) {
           Message("the board found in the cloud does not agree with the other scenes");
       continue;
     }
-    scene.contradicts = elsewhere || scene.place != BoardPlace::kOpen;
+    const bool elsewhere =
+        found && (scene.place != BoardPlace::kTaken || shows_print(run.result, *scene.search));
+    scene.contradicts =
+        elsewhere || scene.place == BoardPlace::kPast || scene.place == BoardPlace::kHidden;
     scene.reason =
         elsewhere ? Message("the board found in the cloud does not agree with the other scenes")
                   : missing_board(scene);

@@ -294,6 +294,8 @@ Status search_scene_again(const SecondSearch& where, const RunContext& context, 
                    options, context);
   if (context.stopped()) return Error::cancelled();
   if (region.radius_m > 0) look.place = look_at_place(*cloud, region.center_m, where.target);
+  if (look.place == BoardPlace::kTaken && !look.search.candidates.empty())
+    look.place = BoardPlace::kOpen;
   take(look);
   if (cache != nullptr) cache->scene(where.files.name).second_look.keep(key, std::move(look));
   return Done{};
@@ -322,6 +324,7 @@ BoardPlace look_at_place(const Cloud& cloud, const Eigen::Vector3d& center_m,
     past += distance > range + radius + kMargin_m ? 1 : 0;
     before += distance < range - radius - kMargin_m ? 1 : 0;
   }
+  if (all >= kFewest && past + before < (1.0 - kShare) * all) return BoardPlace::kTaken;
   if (past + before < kFewest || past + before <= kShare * all) return BoardPlace::kOpen;
   return past >= before ? BoardPlace::kPast : BoardPlace::kHidden;
 }

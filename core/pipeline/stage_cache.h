@@ -46,6 +46,7 @@ enum class BoardPlace {
   kOpen,    ///< Nothing that speaks against the board, or too little.
   kPast,    ///< The rays go on behind the place.
   kHidden,  ///< Something nearer stands in their way.
+  kTaken,   ///< Something stands there, and shows no print: too few lines or points, as far away.
 };
 
 /// What the search in a region found.

@@ -5,8 +5,10 @@
 #include <string>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "cloud/cloud.h"
 #include "pipeline/calibration.h"
 #include "support/ordinary_boards.h"
 #include "support/simulated_dataset.h"
@@ -67,6 +69,43 @@ TEST(FewLinesBeforeCircles, SayOnceThatTheyCannotBeMeasured) {
                                    std::string::npos;
                           }),
             1);
+}
+
+// A board that returns too little to be found contradicts nobody, whatever else in the room looks
+// like one; its print elsewhere does.
+TEST(FewPoints, OnABoardAreNoContradictionButItsPrintElsewhereIs) {
+  constexpr std::size_t kScene = 3;
+  constexpr int kKept = 20;  // One point of so many, and these say nothing of the print.
+  const test::SimulatedDataset data(test::dataset_options(9, 4));
+  const Dataset dataset = data.open();
+  const simulation::SimulatedScene& scene = data.rig().scenes[kScene];
+  const BoardOutline outline = data.rig().target.outline();
+  const Rigid3 board_from_lidar = scene.lidar_from_board.inverse();
+  const Eigen::AngleAxisf aside(0.7F, Eigen::Vector3f::UnitZ());
+  for (const bool elsewhere : {false, true}) {
+    Cloud cloud;
+    int on_board = 0;
+    const auto add = [&](const Eigen::Vector3f& p, float intensity) {
+      cloud.points_m.push_back(p);
+      cloud.intensity.push_back(intensity);
+    };
+    for (std::size_t i = 0; i < scene.cloud.size(); ++i) {
+      const Eigen::Vector3f p = scene.cloud.points_m[i];
+      const Eigen::Vector3d at = board_from_lidar * p.cast<double>().eval();
+      const bool board = std::abs(at.z()) < 0.05 && outline.contains(at.head<2>());
+      if (!board) add(p, scene.cloud.intensity[i]);
+      if (board && on_board++ % kKept == 0) add(p, 40.0F);
+      if (board && elsewhere) add(aside * p, scene.cloud.intensity[i]);
+    }
+    ASSERT_TRUE(write_pcd(dataset.scenes[kScene].cloud, cloud).ok());
+    const auto result = calibrate(dataset, {}, {});
+    ASSERT_TRUE(result.ok()) << result.error().text();
+    const SceneResult& without = result->scenes[kScene];
+    EXPECT_FALSE(without.used);
+    EXPECT_EQ(without.place, BoardPlace::kTaken);
+    EXPECT_EQ(without.contradicts, elsewhere) << without.reason.text();
+    EXPECT_EQ(result->quality, elsewhere ? Quality::kDoubtful : Quality::kGood);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Lines, FewLines, ::testing::Values(16, 32));

@@ -184,7 +184,7 @@ TEST(LookAtPlace, TellsWhereRaysEnd) {
   };
   EXPECT_EQ(look_at_place(wall_at(5.0), center, target), BoardPlace::kPast);
   EXPECT_EQ(look_at_place(wall_at(1.5), center, target), BoardPlace::kHidden);
-  EXPECT_EQ(look_at_place(wall_at(center.norm()), center, target), BoardPlace::kOpen);
+  EXPECT_EQ(look_at_place(wall_at(center.norm()), center, target), BoardPlace::kTaken);
   EXPECT_EQ(look_at_place({}, center, target), BoardPlace::kOpen);
   EXPECT_EQ(look_at_place(wall_at(5.0), -center, target), BoardPlace::kOpen);
 }
