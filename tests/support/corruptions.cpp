@@ -59,6 +59,10 @@ void compare(const CorruptedRig& corrupted, const CalibrationResult& result,
 // The rig as the corruption makes it; nothing where it cannot.
 std::optional<CorruptedRig> corrupt(const SimulatedRig& rig, const Corruption& corruption) {
   if (rig.scenes.size() < corruption.fewest_scenes) return std::nullopt;
+  // What is done to boards is done to rows of tags with circles between them.
+  if (corruption.family == CorruptionFamily::kTarget &&
+      rig.target.type != TargetType::kAprilGridCircles)
+    return std::nullopt;
   CorruptedRig corrupted{rig};
   if (!corruption.effects.empty()) {
     simulation::SimulationOptions options = rig.options;
