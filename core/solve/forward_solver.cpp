@@ -421,14 +421,21 @@ bool fine(const ForwardRun& in, Iteration& it) {
   }
   if (!select(in, it, true)) return false;
   it.state.sensor.lines = lines_with_offset(it.returns);
+  // Freed intrinsics take out of the corners' noise what it held of their errors, and each step is
+  // small beside what is left of that.
+  constexpr double kNoiseStands = 0.1;  // Of its logarithm.
+  const bool freed = (in.options.intrinsics_sigma.array() > 0.0).any();
   last = HUGE_VAL;
   for (; rounds_left > 0; --rounds_left) {
+    const double noise_px = it.noise.corner_px;
     const auto step = iterate(in, it, final_rows(in.options), true);
     if (!step) return false;
+    const bool noise_stands =
+        !freed || std::abs(std::log(it.noise.corner_px / noise_px)) < kNoiseStands;
     // What is still to come of steps that shrink by a ratio q: the last one's q/(1 − q).
     const double ratio = *step / last;
     const double left = ratio > 0.0 && ratio < kShrinks ? *step * ratio / (1.0 - ratio) : HUGE_VAL;
-    if (std::min(*step, left) < in.options.tolerance) {
+    if (noise_stands && std::min(*step, left) < in.options.tolerance) {
       it.solution.converged = true;
       break;
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -143,6 +144,25 @@ TEST(Calibrate, NamesADistortionModelThatPredictsBetter) {
   ASSERT_TRUE(found.camera_from_lidar);
   EXPECT_LT(rotation_distance_rad(truth, found.camera_from_lidar->transform),
             0.5 * rotation_distance_rad(truth, result->extrinsic.camera_from_lidar.transform));
+}
+
+// A principal point is nearly a turn of the camera, and the corners' noise held nearly all that it
+// is not.
+TEST(Calibrate, NamesAWrongPrincipalPointOfASingleTag) {
+  simulation::SimulationOptions options = test::dataset_options(31, 3);
+  options.target = test::single_tag_target();
+  const test::SimulatedDataset data(options);
+  Dataset dataset = data.open();
+  dataset.camera.cx += 25.0;
+  dataset.camera.cy += 25.0;
+  const auto result = calibrate(dataset, {}, {});
+  ASSERT_TRUE(result.ok()) << result.error().text();
+  EXPECT_EQ(result->quality, Quality::kDoubtful);
+  ASSERT_TRUE(result->intrinsics.contradiction);
+  EXPECT_THAT(result->intrinsics.contradiction->what.text(), HasSubstr("the principal point is"));
+  const Vector6d off = se3_log(data.rig().camera_from_lidar *
+                               result->extrinsic.camera_from_lidar.transform.inverse());
+  EXPECT_LT(off.dot(result->covariance_total.ldlt().solve(off)), 22.5);  // χ² of 6, 0.1 %.
 }
 
 // Poses follow the four corners of a tag, and its noise, whatever the camera is: what the ranges
