@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Geometry>
+
 #include "base/units.h"
 #include "cloud/plane.h"
 #include "localization/outline_match.h"
@@ -168,6 +170,45 @@ std::vector<PatternMatch> search_patch(const SearchInput& in, const VoxelCloud& 
                         in.context);
 }
 
+// Voxel means are calmer than single points: allow for several times the thickness.
+double tolerance_m(const SearchInput& in, const PlanarPatch& patch) {
+  return std::max(0.05 * in.size.minCoeff(), 6.0 * patch.thickness_m);
+}
+
+// A patch's plane is that of all that hangs together: beside the board a stand, a strip of floor
+// that is cut, a neighbour, which tilt it. The board's own is that of what lies within its outline
+// where the best match puts it.
+void take_board_plane(const SearchInput& in, const VoxelCloud& voxels, PatchMatches& item) {
+  constexpr int kRounds = 2;  // A tilted plane leaves out the board's ends; with them once more.
+  for (int round = 0; round < kRounds; ++round) {
+    PlanarPatch& patch = item.patch;
+    const PlanarPose& board = item.matches.front().pose;
+    std::vector<std::uint32_t> ids;
+    voxels.neighbours(patch.to_lidar(board.center_m).cast<float>(), 0.5 * in.size.norm(), ids);
+    FittedPlane plane;
+    static_cast<PlaneFrame&>(plane) = patch;
+    const Eigen::Rotation2Dd to_board(-board.angle_rad);
+    std::vector<Eigen::Vector3f> inside;
+    for (const auto i : ids) {
+      const Eigen::Vector3f& mean_m = voxels.voxels()[i].mean_m;
+      const Eigen::Vector3d p = mean_m.cast<double>();
+      const auto hit = plane.ray_hit(p);
+      if (!hit || std::abs(patch.normal.dot(p - patch.center_m)) > tolerance_m(in, patch)) continue;
+      const Eigen::Vector2d at = to_board * (*hit - board.center_m);
+      if ((at.cwiseAbs() - 0.5 * in.size).maxCoeff() < 0.0) inside.push_back(mean_m);
+    }
+    const auto fitted = fit_plane(inside, plane);
+    if (!fitted) return;
+    for (PatternMatch& match : item.matches) {
+      const auto center = fitted->ray_hit(patch.to_lidar(match.pose.center_m));
+      if (!center) return;
+      const Eigen::Vector3d along = patch.turned(match.pose.angle_rad).col(0);
+      match.pose = {std::atan2(along.dot(fitted->axis_v), along.dot(fitted->axis_u)), *center};
+    }
+    static_cast<PlaneFrame&>(patch) = *fitted;
+  }
+}
+
 // One pass over the cloud: the points about every patch, at full density.
 std::vector<Cloud> gather(const SearchInput& in, const std::vector<PatchMatches>& found) {
   std::vector<Cloud> out(found.size());
@@ -180,10 +221,8 @@ std::vector<Cloud> gather(const SearchInput& in, const std::vector<PatchMatches>
   for (const PatchMatches& item : found) {
     const Eigen::Vector2d c = item.matches.front().pose.center_m;
     const Eigen::Vector3d center = item.patch.to_lidar(c);
-    // Voxel means are calmer than single points: allow for several times the thickness.
-    const double tolerance = std::max(0.05 * in.size.minCoeff(), 6.0 * item.patch.thickness_m);
     slabs.push_back({item.patch.normal.cast<float>(), item.patch.center_m.cast<float>(),
-                     center.cast<float>(), static_cast<float>(tolerance)});
+                     center.cast<float>(), static_cast<float>(tolerance_m(in, item.patch))});
   }
   for (std::size_t i = 0; i < in.cloud.size(); ++i) {
     if ((i & 0xFFFF) == 0 && in.context.stopped()) return out;
@@ -364,6 +403,7 @@ BoardSearchResult search_board(const Cloud& cloud, const BoardSought& sought,
     if (!item.matches.empty()) found.push_back(std::move(item));
   }
   keep_best(options.max_patches, by_pattern, found);
+  for (PatchMatches& item : found) take_board_plane(in, voxels, item);
   result.patch_points = gather(in, found);
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (by_pattern) {

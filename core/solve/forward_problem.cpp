@@ -122,6 +122,32 @@ struct SparseRow {
   }
 };
 
+// What spots that see a share of one print, more or less, say of the noise on that print alone.
+class MixedNoise {
+ public:
+  void add(double share, double z) {
+    shares_ += share;
+    squares_of_shares_ += share * share;
+    cut_squares_ += share * std::min(z * z, kCut * kCut) / kCutMean;
+  }
+  void add(const MixedNoise& other) {
+    shares_ += other.shares_;
+    squares_of_shares_ += other.squares_of_shares_;
+    cut_squares_ += other.cut_squares_;
+  }
+  // As many spots that see nothing else would say as much of it: the information on log σ where σ
+  // lies geometrically between those of the prints (see noise_between()), against that of one.
+  [[nodiscard]] double rows() const { return squares_of_shares_; }
+  // σ by which residuals were divided, times this, is the one they say: the step of Fisher's
+  // scoring Σ share·(z² − 1)/(2 Σ share²) to first order, exact where all shares are one.
+  [[nodiscard]] double factor() const {
+    return std::exp(0.5 * std::log(cut_squares_ / shares_) * shares_ / squares_of_shares_);
+  }
+
+ private:
+  double shares_ = 0.0, squares_of_shares_ = 0.0, cut_squares_ = 0.0;
+};
+
 // Upper triangle of the normal matrix, and gradient.
 struct Accumulator {
   Eigen::MatrixXd normal;
@@ -129,6 +155,7 @@ struct Accumulator {
   SceneFit fit;
   std::array<double, 4> cut_squares{};  // range white, black; intensity white, black
   std::array<double, 4> cut_rows{};
+  std::array<MixedNoise, 2> mixed_range{};  // white, black
   double weight = 0.0, sum = 0.0, squares = 0.0, residual_squares = 0.0;
   Eigen::Matrix<double, kFaults, Eigen::Dynamic> by_faults;
   FaultMatrix faults = FaultMatrix::Zero();
@@ -181,6 +208,7 @@ struct Accumulator {
       cut_squares[k] += other.cut_squares[k];
       cut_rows[k] += other.cut_rows[k];
     }
+    for (std::size_t k = 0; k < 2; ++k) mixed_range[k].add(other.mixed_range[k]);
     weight += other.weight;
     sum += other.sum;
     squares += other.squares;
@@ -277,6 +305,8 @@ class LidarRows {
     out.fit.range_squares += robust * z * z;
     ++out.fit.range_rows;
     note_noise(p.white, e, sigma, 0, out);
+    out.mixed_range[0].add(p.white, z);
+    out.mixed_range[1].add(1.0 - p.white, z);
   }
 
   void add_intensity(std::size_t k, double e, const ReturnPrediction& p, const FaultMoves& moves,
@@ -395,15 +425,20 @@ double inflation(const BoardReturns& returns, const std::vector<float>& z) {
 void update_noise(const SceneNoise& before, const Accumulator& sums, const LidarRows& rows,
                   const BoardReturns& returns, SceneFit& fit) {
   constexpr double kFewest = 20.0;
-  // A class with too few rows takes the other's.
   const auto sigma = [&](std::size_t k, double old, double floor) {
     const double n = sums.cut_rows[k];
     return n < kFewest ? old : std::max(floor, std::sqrt(sums.cut_squares[k] / (kCutMean * n)));
   };
   fit.noise = before;
-  fit.noise.range_white_m = sigma(0, before.range_white_m, 1e-5);
-  fit.noise.range_black_m =
-      sums.cut_rows[1] < kFewest ? fit.noise.range_white_m : sigma(1, before.range_black_m, 1e-5);
+  // Ranges on small prints, seen by few spots or none alone, scatter as all spots that see a part
+  // of them say. A class with too few rows even so takes the other's.
+  const auto range_sigma_m = [&](std::size_t k, double old, double otherwise) {
+    if (sums.cut_rows[k] >= kFewest) return sigma(k, old, 1e-5);
+    const MixedNoise& mixed = sums.mixed_range[k];
+    return mixed.rows() < kFewest ? otherwise : std::max(1e-5, old * mixed.factor());
+  };
+  fit.noise.range_white_m = range_sigma_m(0, before.range_white_m, before.range_white_m);
+  fit.noise.range_black_m = range_sigma_m(1, before.range_black_m, fit.noise.range_white_m);
   // Numbers that come in steps scatter by a step/√12 at least; whole ones, by that.
   const double floor = kRoundingSigma * (returns.intensity_step > 0.0   ? returns.intensity_step
                                          : before.intensity_white > 2.0 ? 1.0

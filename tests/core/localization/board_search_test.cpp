@@ -131,8 +131,9 @@ TEST_P(EveryLidar, FindsAChArUcoBoardWhicheverWayRound) {
     ASSERT_FALSE(result.candidates.empty());
     const BoardCandidate& best = result.candidates.front();
     const Eigen::Vector3d truth = board_center(options.target, scene.lidar_from_board);
-    EXPECT_LT((board_center(options.target, best.lidar_from_board.transform) - truth).norm(), 0.03);
-    EXPECT_LT(rotation_distance_rad(best.lidar_from_board.transform, scene.lidar_from_board), 0.06);
+    // The stand below it does not tilt it.
+    EXPECT_LT((board_center(options.target, best.lidar_from_board.transform) - truth).norm(), 0.01);
+    EXPECT_LT(rotation_distance_rad(best.lidar_from_board.transform, scene.lidar_from_board), 0.01);
   }
 }
 

@@ -84,6 +84,24 @@ INSTANTIATE_TEST_SUITE_P(Scanners, ForwardSolver,
                          testing::Values(LidarKind::kRosette, LidarKind::kAvia,
                                          LidarKind::kSpinning));
 
+// Spots too wide to see black alone anywhere: what they scatter more where they see more of it
+// tells how ranges scatter there.
+TEST(ForwardSolver, MeasuresTheNoiseOnPrintThatNoSpotSeesAlone) {
+  auto o = options(33, LidarKind::kAvia, 2);
+  o.target.type = TargetType::kAprilGrid;
+  o.lidar.beam_horizontal_mrad = o.lidar.beam_vertical_mrad = 4.0;
+  const ForwardRig rig = forward_rig(o);
+  const auto solution = solve(rig, Vector6d::Zero());
+  ASSERT_TRUE(solution) << solution.error().text();
+  const double darker =
+      std::pow(simulation::PrintedBoard::kWhite / simulation::PrintedBoard::kBlack,
+               o.lidar.range_dark_exponent);
+  for (const ForwardSceneResult& scene : solution->scenes) {
+    EXPECT_NEAR(scene.noise.range_white_m, o.lidar.range_sigma_m, 0.1 * o.lidar.range_sigma_m);
+    EXPECT_NEAR(scene.noise.range_black_m / scene.noise.range_white_m, darker, 0.3 * darker);
+  }
+}
+
 TEST(ForwardSolver, OneSceneIsEnoughForAPrint) {
   const ForwardRig rig = forward_rig(options(51, LidarKind::kAvia, 1));
   const auto solution = solve(rig, Vector6d::Zero());
