@@ -106,17 +106,6 @@ class ShotSimulator {
   double jitter_rad_;
 };
 
-// Root mean square radius, in standard deviations, of ring i of `count` rings that share a Gaussian
-// footprint equally. With it each ray has the second moment of the light that it stands for, all of
-// them that of the footprint, and an edge passes as through the Gaussian itself.
-double ring_radius(int i, int count) {
-  // Light outside a radius is q = exp(-radius²/2); the integral of -ln q from 0 to q.
-  const auto integral = [](double q) { return q > 0.0 ? q - q * std::log(q) : 0.0; };
-  const double inner = 1.0 - static_cast<double>(i) / count;
-  const double outer = 1.0 - (i + 1.0) / count;
-  return std::sqrt(2.0 * count * (integral(inner) - integral(outer)));
-}
-
 }  // namespace
 
 Beam::Beam(const LidarOptions& options, const RayCaster& caster, const BeamDisturbance& disturbance,
@@ -129,10 +118,17 @@ Beam::Beam(const LidarOptions& options, const RayCaster& caster, const BeamDistu
       vertical_mrad_(disturbance.vertical_mrad(options)),
       incidence_exponent_(radiometry.incidence_exponent(options)),
       range_exponent_(radiometry.range_exponent(options)) {
+  double variance = 0.0;
   for (int i = 0; i < options.beam_rays; ++i) {
-    const double radius = ring_radius(i, options.beam_rays);
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - (i + 0.5) / options.beam_rays));
     nodes_.push_back(
         {radius * std::cos(kGoldenAngleRad * i), radius * std::sin(kGoldenAngleRad * i)});
+    variance += 0.5 * radius * radius / options.beam_rays;
+  }
+  const double scale = 1.0 / std::sqrt(variance);
+  for (Node& node : nodes_) {
+    node.x *= scale;
+    node.y *= scale;
   }
   const double farthest = std::hypot(nodes_.back().x, nodes_.back().y);
   reach_rad_ = farthest * 1e-3 * std::max(horizontal_mrad_, vertical_mrad_);

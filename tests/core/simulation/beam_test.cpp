@@ -83,48 +83,6 @@ TEST(Beam, TransitionGrowsWithRangeAsTheFootprintSays) {
   }
 }
 
-// A long straight edge, seen through a Gaussian: its place among the rays' weights is the normal
-// distribution's, the second moment of the rays the footprint's.
-TEST(Beam, StraightEdgePassesAsThroughAGaussian) {
-  constexpr double kRange_m = 3.0;
-  constexpr double kSigma_m = 1e-3 * kRange_m;
-  LidarOptions options;
-  options.beam_horizontal_mrad = options.beam_vertical_mrad = 1.0;
-  options.range_follows_power = false;
-  // Light falls beside the panel's edge, or on it.
-  const Room room{{panel(kRange_m, 1.0, 0.5, 1.0), panel(kRange_m + 9.0, 50.0, 0.0)}, kZ};
-  const RayCaster caster(room, Eigen::Vector3d::Zero());
-  const Beam beam(options, caster);
-  constexpr int kTurns = 128;
-  const auto passed = [&](double offset_m) {
-    double sum = 0.0;
-    for (int i = 0; i < kTurns; ++i) {
-      const Return hit =
-          beam.fire(towards(kRange_m, offset_m, 0.0), 2.0 * std::numbers::pi * (i + 0.5) / kTurns);
-      if (hit.range_m < kRange_m + 1.0) sum += hit.reflectivity / 0.5;
-    }
-    return sum / kTurns;
-  };
-  // Of a Gaussian ∫(step − passed)·2x dx is its variance; both sides, as the panel may be cut.
-  constexpr double kStep_m = 0.05 * kSigma_m;
-  double variance_m2 = 0.0;
-  double slope = 0.0;
-  double squares = 0.0;
-  for (int k = -80; k <= 80; ++k) {
-    const double x = k * kStep_m;
-    const double exact = normal_cdf(x / kSigma_m);
-    const double seen = passed(x);
-    EXPECT_NEAR(seen, exact, 0.003) << x / kSigma_m;
-    variance_m2 += 2.0 * x * ((x > 0.0 ? 1.0 : 0.0) - seen) * kStep_m;
-    // Least squares of the width: the response by ln σ is −z·φ(z).
-    const double by_width = -x / kSigma_m * std::exp(-0.5 * std::pow(x / kSigma_m, 2));
-    slope += by_width * (seen - exact);
-    squares += by_width * by_width / std::sqrt(2.0 * std::numbers::pi);
-  }
-  EXPECT_NEAR(variance_m2 / (kSigma_m * kSigma_m), 1.0, 0.003);
-  EXPECT_NEAR(slope / squares, 0.0, 0.0015);
-}
-
 TEST(Beam, PlainSurfaceGivesItsRangeAndReflectivity) {
   LidarOptions options;
   const Room room{{panel(3.0, 5.0, 0.5)}, kZ};
