@@ -395,6 +395,7 @@ Status explain_disagreement(const CalibrationInput& in, CalibrationResult& resul
 // What was found elsewhere is the board, though something stands at its place, if it shows the
 // print as clearly as some scene does that agrees with others.
 bool shows_print(const CalibrationResult& result, const BoardSearchResult& search) {
+  constexpr double kAbout = 0.5;  // Of the evidence: half as many points.
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t s = 0; s < result.scenes.size(); ++s) {
     const auto& chosen = result.consensus.chosen[s];
@@ -402,7 +403,7 @@ bool shows_print(const CalibrationResult& result, const BoardSearchResult& searc
   }
   return std::any_of(
       search.candidates.begin(), search.candidates.end(),
-      [&](const BoardCandidate& c) { return c.correlation > 0.0 && c.gain >= least; });
+      [&](const BoardCandidate& c) { return c.correlation > 0.0 && c.gain >= kAbout * least; });
 }
 
 Status agree(const CalibrationInput& in, Calibration& run) {
@@ -679,9 +680,28 @@ Status look_at_rejected(const CalibrationInput& in, CalibrationResult& result) {
   return Done{};
 }
 
+// Without circles too few scenes are left where some contradict the others: what makes them do so
+// may be what the images say themselves.
+std::optional<Error> too_few_for(const CalibrationResult& result) {
+  const auto count = [&](const auto& is) {
+    return std::count_if(result.scenes.begin(), result.scenes.end(), is);
+  };
+  const auto used = count([](const SceneResult& scene) { return scene.used; });
+  const auto lost =
+      count([](const SceneResult& scene) { return scene.view && !scene.used && !scene.rejected; });
+  if (result.target.has_circles() || used >= kFewestWithoutCircles || lost == 0)
+    return std::nullopt;
+  if (const Message spacing = better_spacing(result); !spacing.empty())
+    return wrong_target(result.dataset, spacing);
+  if (const Message what = contradicted_by_corners(result); !what.empty())
+    return wrong_camera(result.dataset, what);
+  return std::nullopt;
+}
+
 Status optimize(const CalibrationInput& in, CalibrationResult& result) {
   in.context.report("optimize", 0.92, Message("joint solve"));
   const auto start = Clock::now();
+  if (const auto error = too_few_for(result)) return *error;
   std::vector<bool> use;
   for (const SceneResult& scene : result.scenes) use.push_back(scene.used);
   auto solved = resolve_calibration(std::move(result), use, in.request.options, in.context);

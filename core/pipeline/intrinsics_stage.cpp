@@ -391,7 +391,7 @@ std::optional<CornerMisfit> corner_misfit(const CalibrationResult& result, doubl
     const CornerMisfit misfit{own_px, result.intrinsics.replicate_px};
     return misfit.px > kCornersMiss * misfit.noise_px ? std::optional(misfit) : std::nullopt;
   }
-  if (!result.forward) return std::nullopt;
+  if (!result.forward || result.model_fit) return std::nullopt;
   double rows = 0.0;
   double views = 0.0;
   for (const SceneResult& scene : result.scenes) {

@@ -14,7 +14,7 @@ Status enough_scenes(const std::vector<SceneObservations>& scenes, const Target&
   const auto used =
       std::count_if(scenes.begin(), scenes.end(), [](const SceneObservations& s) { return s.use; });
   if (used == 0) return Error::untrusted(Message("no usable scene is left"));
-  if (!target.has_circles() && used < 3) {
+  if (!target.has_circles() && used < kFewestWithoutCircles) {
     return Error::untrusted(
         Message(
             "%1 usable scenes; a target without circles needs three or more, differently turned",

@@ -17,6 +17,9 @@
 
 namespace lvcalib {
 
+/// Planes and corners leave the LiDAR's place open: a target without circles needs so many scenes.
+inline constexpr int kFewestWithoutCircles = 3;
+
 /// Everything the joint solve needs of one scene.
 struct SceneObservations {
   std::string name;

@@ -43,6 +43,7 @@ void WorldPane::retranslate() {
 
 PointsOfScenes WorldPane::byScene(const std::vector<std::uint32_t>& points) const {
   PointsOfScenes out;
+  if (!result_) return out;
   for (const std::uint32_t i : points) {
     const std::size_t scene = boards_->line[i] - 1U;
     out[QString::fromStdString(result_->scenes[scene].name)].push_back(boards_->points_m[i]);

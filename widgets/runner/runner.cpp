@@ -8,6 +8,8 @@
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include <sys/resource.h>
@@ -68,6 +70,7 @@ struct Runner::Task {
   std::stop_source stop;
   std::mutex mutex;                // Of what follows.
   std::optional<Progress> latest;  // Not told yet: a telling is on its way.
+  std::set<std::string> stages;    // That have begun.
 };
 
 // The way back to the runner's thread, cut when the runner goes away.
@@ -108,9 +111,14 @@ quint64 Runner::start(Work work) {
         context.progress = [mailbox, task, this](const Progress& p) {
           if (task->stop.stop_requested()) return;
           const std::lock_guard lock(task->mutex);
+          if (task->stages.insert(p.stage).second) {
+            task->latest.reset();  // What was before it is past.
+            mailbox->post([this, task, p] { tell(task, p); });
+            return;
+          }
           const bool on_its_way = task->latest.has_value();
           task->latest = p;
-          if (!on_its_way) mailbox->post([this, task] { tell_progress(task); });
+          if (!on_its_way) mailbox->post([this, task] { tell_latest(task); });
         };
         const Post post = [mailbox, task, this](Deliver call) {
           if (task->stop.stop_requested()) return;
@@ -152,22 +160,24 @@ void Runner::cancel() {
   });
 }
 
-void Runner::tell_progress(const std::shared_ptr<Task>& task) {
+void Runner::tell(const std::shared_ptr<Task>& task, const Progress& p) {
+  if (task != task_) return;
+  told_.start();
+  Q_EMIT progressed(task->id, QString::fromStdString(p.stage), p.fraction, core_text(p.text));
+}
+
+void Runner::tell_latest(const std::shared_ptr<Task>& task) {
   if (task != task_) return;
   if (told_.isValid() && told_.elapsed() < kTellEveryMs) {
-    QTimer::singleShot(kTellEveryMs - told_.elapsed(), this, [this, task] { tell_progress(task); });
+    QTimer::singleShot(kTellEveryMs - told_.elapsed(), this, [this, task] { tell_latest(task); });
     return;
   }
-  told_.start();
   std::optional<Progress> latest;
   {
     const std::lock_guard lock(task->mutex);
     latest = std::exchange(task->latest, {});
   }
-  if (latest) {
-    Q_EMIT progressed(task->id, QString::fromStdString(latest->stage), latest->fraction,
-                      core_text(latest->text));
-  }
+  if (latest) tell(task, *latest);
 }
 
 void Runner::take(const std::shared_ptr<Task>& task, const Deliver& deliver, const QString& error) {

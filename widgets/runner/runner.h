@@ -64,8 +64,8 @@ class Runner : public QObject {
 
  Q_SIGNALS:
   void started(quint64 id);
-  /// `fraction` 0…1 of the whole job. The latest at most every kTellEveryMs: each draws the window
-  /// again.
+  /// `fraction` 0…1 of the whole job. The beginning of every stage, and between these the latest at
+  /// most every kTellEveryMs: each draws the window again.
   void progressed(quint64 id, const QString& stage, double fraction, const QString& text);
   void finished(quint64 id);
   void cancelled(quint64 id);
@@ -75,7 +75,8 @@ class Runner : public QObject {
  private:
   struct Task;
   struct Mailbox;
-  void tell_progress(const std::shared_ptr<Task>& task);
+  void tell(const std::shared_ptr<Task>& task, const Progress& p);
+  void tell_latest(const std::shared_ptr<Task>& task);
   void take(const std::shared_ptr<Task>& task, const Deliver& deliver, const QString& error);
 
   std::shared_ptr<Mailbox> mailbox_;

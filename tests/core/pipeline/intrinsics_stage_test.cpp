@@ -196,6 +196,22 @@ TEST(Calibrate, NamesAWrongFocalLengthOfASingleTag) {
   }
 }
 
+// Without circles scenes that contradict each other leave too few; what the images say is said.
+TEST(Calibrate, NamesAWrongFocalLengthWhereItLeavesTooFewScenes) {
+  simulation::SimulationOptions options = test::dataset_options(998'004, 3);
+  options.lidar.kind = simulation::LidarKind::kRosette;
+  options.lidar.points = 60'000;
+  options.target = test::charuco_target();
+  const test::SimulatedDataset data(options);
+  Dataset dataset = data.open();
+  dataset.camera.fx *= 1.1;
+  dataset.camera.fy *= 1.1;
+  const auto result = calibrate(dataset, {}, {});
+  ASSERT_FALSE(result.ok());
+  EXPECT_EQ(result.error().kind, ErrorKind::kUntrusted);
+  EXPECT_THAT(result.error().text(), HasSubstr("the focal length is"));
+}
+
 // What the joint solve leaves of a few corners, against what poses of their own leave.
 TEST(CornerMisfit, OfFewCornersIsThatOfTheJointSolve) {
   CalibrationResult result;

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <stdexcept>
 #include <thread>
+#include <tuple>
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -54,6 +55,7 @@ TEST(Runner, TellsTheLatestProgressNowAndThen) {
   clock.start();
   runner.start([&](const RunContext& context, const Post&) -> Deliver {
     for (int k = 1; k <= 100; ++k) context.report("load", 0.001 * k, Message("point %1", k));
+    for (const char* stage : {"detect", "refine", "load"}) context.report(stage, 0.1, {});
     reported = true;
     while (!seen) std::this_thread::sleep_for(1ms);
     for (int k = 101; k <= 500; ++k) {
@@ -64,11 +66,17 @@ TEST(Runner, TellsTheLatestProgressNowAndThen) {
   });
   while (!reported) std::this_thread::sleep_for(1ms);
   ASSERT_TRUE(QTest::qWaitFor([&] { return progressed.count() > 0; }, 10'000));
-  EXPECT_EQ(progressed.first().at(2).toDouble(), 0.1);
+  // Where every stage begins, and then what was reported last.
+  ASSERT_TRUE(QTest::qWaitFor([&] { return progressed.count() > 3; }, 10'000));
+  for (const auto& [at, stage, fraction] :
+       {std::tuple(0, "load", 0.001), {1, "detect", 0.1}, {2, "refine", 0.1}, {3, "load", 0.1}}) {
+    EXPECT_EQ(progressed.at(at).at(1).toString(), stage);
+    EXPECT_EQ(progressed.at(at).at(2).toDouble(), fraction);
+  }
   seen = true;
   ASSERT_TRUE(finished.wait(20'000));
-  EXPECT_GE(progressed.count(), 2);
-  EXPECT_LE(progressed.count(), 1 + clock.elapsed() / Runner::kTellEveryMs);
+  EXPECT_GE(progressed.count(), 5);
+  EXPECT_LE(progressed.count(), 4 + clock.elapsed() / Runner::kTellEveryMs);
 }
 
 // The window is drawn first, whatever is computed with as many threads as there are processors.

@@ -363,6 +363,7 @@ TEST_F(MainWindowTest, UnusableThingsAreNamedAndNothingOpens) {
 // One stroke through several boards is one decision, and one to undo.
 TEST_F(MainWindowTest, PointsBrushedInAllScenesAreLeftOutAtOnce) {
   run();
+  find<QTabWidget>(*window_, "pages")->setCurrentIndex(2);
   auto* world = window_->findChild<widgets::WorldPane*>();
   ASSERT_NE(world, nullptr);
   ASSERT_TRUE(wait_until([&] { return !world->busy() && world->view()->scene(); }));
