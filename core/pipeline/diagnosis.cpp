@@ -377,7 +377,7 @@ Message split_apart(const CalibrationResult& result) {
 }  // namespace
 
 Message diagnose_bump(const CalibrationResult& result) {
-  // Scenes are taken in the order of their names. Those whose images are turned are told of as that.
+  // In the order in which scenes are taken, their names. That an image is turned is told as that.
   std::vector<std::size_t> order;
   for (std::size_t s = 0; s < result.scenes.size(); ++s) {
     const SceneResult& scene = result.scenes[s];
