@@ -5,9 +5,9 @@
 //   corruption_study [RIGS] [FIRST_SEED] [FOLDER] [KIND] [FIRST_INDEX]
 //
 // Rig k, counted from FIRST_INDEX (0), takes the k-th of three scanners in turn and three to six
-// scenes, and from the fourth on a single tag, a ChArUco board and a checkerboard in turn instead of
-// the board with circles; seeds are consecutive. With KIND only corruptions whose name holds the word. Every run is
-// a process of its own, so that a crash is counted and not the end.
+// scenes, and from the fourth on a single tag, a ChArUco board and a checkerboard in turn instead
+// of the board with circles; seeds are consecutive. With KIND only corruptions whose name holds the
+// word. Every run is a process of its own, so that a crash is counted and not the end.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
