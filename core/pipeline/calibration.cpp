@@ -140,15 +140,19 @@ void settle_colors(CalibrationResult& result) {
   }
 }
 
-Error wrong_target(const std::string& dataset, const Message& what) {
-  return Error::untrusted(Message("the images contradict target.yaml: %1", what), dataset,
-                          Message("measure the print and correct target.yaml"));
-}
-
-// A wrong focal length makes every distance, and with it the board's size, wrong.
-Error wrong_camera(const std::string& dataset, const Message& what) {
-  return Error::untrusted(Message("the images contradict the intrinsics: %1", what), dataset,
-                          Message("calibrate the camera again, or use --intrinsics free"));
+// What the images contradict whatever the clouds say: target.yaml, or the intrinsics. A wrong focal
+// length makes every distance, and with it the board's size, wrong.
+std::optional<Error> contradicted_by_images(const CalibrationResult& result) {
+  if (const Message spacing = better_spacing(result); !spacing.empty()) {
+    return Error::untrusted(Message("the images contradict target.yaml: %1", spacing),
+                            result.dataset, Message("measure the print and correct target.yaml"));
+  }
+  if (const Message what = contradicted_by_corners(result); !what.empty()) {
+    return Error::untrusted(Message("the images contradict the intrinsics: %1", what),
+                            result.dataset,
+                            Message("calibrate the camera again, or use --intrinsics free"));
+  }
+  return std::nullopt;
 }
 
 // Files that stand in for others' contradict their scenes in ways that other faults would
@@ -202,10 +206,7 @@ std::optional<Error> wrong_size(const CalibrationInput& in, Calibration& run) {
   const int percent = static_cast<int>(std::lround(100.0 * (*scale - 1.0)));
   // Of its own size it was looked for already: something else is wrong.
   if (percent == 0) return std::nullopt;
-  if (const Message spacing = better_spacing(run.result); !spacing.empty())
-    return wrong_target(run.result.dataset, spacing);
-  if (const Message what = contradicted_by_corners(run.result); !what.empty())
-    return wrong_camera(run.result.dataset, what);
+  if (const auto error = contradicted_by_images(run.result)) return error;
   return Error::untrusted(
       percent > 0 ? Message("LiDAR and camera disagree on the board's size: the LiDAR sees it "
                             "about %1 % larger than target.yaml says",
@@ -216,43 +217,9 @@ std::optional<Error> wrong_size(const CalibrationInput& in, Calibration& run) {
       run.result.dataset, Message("measure the printed tags and correct tagSize"));
 }
 
-Message search_summary(const SceneResult& scene) {
-  if (!scene.search) return Message("not searched");
-  if (!(scene.search->best_correlation > 0))
-    return Message("%1 flat patches of its size", scene.search->patches);
-  return Message("%1 flat patches of its size, best pattern correlation %2", scene.search->patches,
-                 std::to_string(scene.search->best_correlation).substr(0, 4));
-}
-
-Message missing_board(const SceneResult& scene) {
-  const Message search = search_summary(scene);
-  switch (scene.place) {
-    case BoardPlace::kPast:
-      return Message(
-          "the board is not found in the cloud (%1); the LiDAR sees past the place where the "
-          "image has it: does the image belong to this cloud?",
-          search);
-    case BoardPlace::kHidden:
-      return Message(
-          "the board is not found in the cloud (%1); something nearer stands where the image has "
-          "it: does the image belong to this cloud, or is the board hidden from the LiDAR?",
-          search);
-    case BoardPlace::kTaken:
-      return Message(
-          "the board is not found in the cloud: something stands where the other scenes put it, "
-          "with too few lines or points to tell its print");
-    case BoardPlace::kOpen:
-      break;
-  }
-  return Message("the board is not found in the cloud (%1)", search);
-}
-
 Error not_found(const CalibrationInput& in, Calibration& run) {
   if (const auto error = shared_files(run.result)) return *error;
-  if (const Message spacing = better_spacing(run.result); !spacing.empty())
-    return wrong_target(run.result.dataset, spacing);
-  if (const Message what = contradicted_by_corners(run.result); !what.empty())
-    return wrong_camera(run.result.dataset, what);
+  if (const auto error = contradicted_by_images(run.result)) return *error;
   // What two scenes agree on comes before what looks like the board in one of another size.
   if (several_views(run.result)) {
     if (const auto error = wrong_clouds(in, run)) return *error;
@@ -691,11 +658,7 @@ std::optional<Error> too_few_for(const CalibrationResult& result) {
       count([](const SceneResult& scene) { return scene.view && !scene.used && !scene.rejected; });
   if (result.target.has_circles() || used >= kFewestWithoutCircles || lost == 0)
     return std::nullopt;
-  if (const Message spacing = better_spacing(result); !spacing.empty())
-    return wrong_target(result.dataset, spacing);
-  if (const Message what = contradicted_by_corners(result); !what.empty())
-    return wrong_camera(result.dataset, what);
-  return std::nullopt;
+  return contradicted_by_images(result);
 }
 
 Status optimize(const CalibrationInput& in, CalibrationResult& result) {

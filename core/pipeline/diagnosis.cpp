@@ -407,4 +407,35 @@ Message diagnose_bump(const CalibrationResult& result) {
                        result.scenes[*(middle - 1)].name, result.scenes[*middle].name);
 }
 
+Message search_summary(const SceneResult& scene) {
+  if (!scene.search) return Message("not searched");
+  if (!(scene.search->best_correlation > 0))
+    return Message("%1 flat patches of its size", scene.search->patches);
+  return Message("%1 flat patches of its size, best pattern correlation %2", scene.search->patches,
+                 std::to_string(scene.search->best_correlation).substr(0, 4));
+}
+
+Message missing_board(const SceneResult& scene) {
+  const Message search = search_summary(scene);
+  switch (scene.place) {
+    case BoardPlace::kPast:
+      return Message(
+          "the board is not found in the cloud (%1); the LiDAR sees past the place where the "
+          "image has it: does the image belong to this cloud?",
+          search);
+    case BoardPlace::kHidden:
+      return Message(
+          "the board is not found in the cloud (%1); something nearer stands where the image has "
+          "it: does the image belong to this cloud, or is the board hidden from the LiDAR?",
+          search);
+    case BoardPlace::kTaken:
+      return Message(
+          "the board is not found in the cloud: something stands where the other scenes put it, "
+          "with too few lines or points to tell its print");
+    case BoardPlace::kOpen:
+      break;
+  }
+  return Message("the board is not found in the cloud (%1)", search);
+}
+
 }  // namespace lvcalib

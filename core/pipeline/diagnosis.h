@@ -83,4 +83,11 @@ Message describe_bump(const SceneGroup& first, const SceneGroup& second,
 /// extrinsics; empty if not.
 Message diagnose_bump(const CalibrationResult& result);
 
+/// How far the search for the board came in a scene.
+Message search_summary(const SceneResult& scene);
+
+/// Why a scene whose image shows the board is not used where its cloud does not: what lies at the
+/// place that the other scenes give.
+Message missing_board(const SceneResult& scene);
+
 }  // namespace lvcalib

@@ -385,7 +385,7 @@ void free_camera(CalibrationResult& result) {
   report.evidence = intrinsics_evidence(extra_views(report), result.camera, fit->sigma_px);
 }
 
-std::optional<CornerMisfit> corner_misfit(const CalibrationResult& result, double false_alarm) {
+std::optional<CornerMisfit> corner_misfit(const CalibrationResult& result) {
   const double own_px = result.extrinsic.sigma_px;
   if (result.intrinsics.replicate_px > 0.0) {
     const CornerMisfit misfit{own_px, result.intrinsics.replicate_px};
@@ -402,7 +402,9 @@ std::optional<CornerMisfit> corner_misfit(const CalibrationResult& result, doubl
   const double freedom = rows - 6.0 * views;
   if (freedom < 1.0) return std::nullopt;
   const CornerMisfit misfit{result.forward->noise.corner_px, own_px};
-  const double chance = f_gate(static_cast<int>(std::lround(rows)), freedom, false_alarm) / rows;
+  const double chance =
+      f_gate(static_cast<int>(std::lround(rows)), freedom, result.options.intrinsics.false_alarm) /
+      rows;
   const double gate = std::max(kCornersMiss * kCornersMiss, chance);
   return std::pow(misfit.px, 2) > gate * std::pow(own_px, 2) ? std::optional(misfit) : std::nullopt;
 }

@@ -83,12 +83,11 @@ struct CornerMisfit {
 inline constexpr double kCornersMiss = 2.0;
 
 /// Boards with corners enough for replicates: what poses of their own leave, if it is more than
-/// kCornersMiss times what replicates scatter. Boards
-/// without, as a single tag: what the joint solve leaves of their corners, if it is as much more
-/// than what poses of their own leave, and more than chance makes it (F-test with the probability
-/// `false_alarm`); a pose follows few corners, whatever the camera is. Not under a model with
-/// effects.
-std::optional<CornerMisfit> corner_misfit(const CalibrationResult& result, double false_alarm);
+/// kCornersMiss times what replicates scatter. Boards without, as a single tag: what the joint
+/// solve leaves of their corners, if it is as much more than what poses of their own leave, and
+/// more than chance makes it (F-test with the false alarm of IntrinsicsOptions); a pose follows few
+/// corners, whatever the camera is. Not under a model with effects.
+std::optional<CornerMisfit> corner_misfit(const CalibrationResult& result);
 
 /// Sizes of the faults that the calibration's solve leaves out.
 LeftOutSizes left_out_sizes(const CalibrationResult& result);

@@ -319,7 +319,7 @@ void judge_corners(const CalibrationResult& result, const QualityOptions& option
                 "flat",
                 formatted("%.2f", x.sigma_px)));
   }
-  const auto misfit = corner_misfit(result, result.options.intrinsics.false_alarm);
+  const auto misfit = corner_misfit(result);
   if (!misfit) return;
   // What another camera or another distortion model mends is told as that.
   const auto& contradiction = result.intrinsics.contradiction;

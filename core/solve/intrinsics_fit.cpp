@@ -322,7 +322,6 @@ std::optional<IntrinsicsFit> fit_intrinsics(const std::vector<CornerView>& views
   out.camera_from_board = state.poses;
   out.covariance = prior.asDiagonal() * factor.solve(Matrix12::Identity()) * prior.asDiagonal();
   out.sigma_px = sigma;
-  out.rows = at.rows;
   out.freedom = freedom;
   if (!out.covariance.allFinite() || !check(out.camera)) return std::nullopt;
   std::vector<CornerView> fitted = views;

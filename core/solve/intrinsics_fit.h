@@ -45,8 +45,7 @@ struct IntrinsicsFit {
   double sigma_px = 0.0;  ///< Of one coordinate, from the residuals.
   double replicate_px =
       0.0;               ///< The same from replicates (see replicate_noise); 0 if there are few.
-  std::size_t rows = 0;  ///< Coordinates.
-  double freedom = 0.0;  ///< Of them, what poses and intrinsics leave.
+  double freedom = 0.0;  ///< Coordinates less poses and intrinsics.
 };
 
 /// Bundle adjustment of one camera over views of a board: minimises Σ|z − π(T P)|²/σ² with

@@ -80,9 +80,12 @@ bool CameraDialog::busy() const {
 }
 
 void CameraDialog::connectParts() {
-  connect(choose_folder_, &QPushButton::clicked, this, &CameraDialog::chooseFolder);
-  connect(choose_target_, &QPushButton::clicked, this, &CameraDialog::chooseTarget);
-  connect(choose_camera_, &QPushButton::clicked, this, &CameraDialog::chooseCamera);
+  connect(choose_folder_, &QPushButton::clicked, this,
+          [this] { take(folder_, choices_.camera_images_to_open(this, startFolder())); });
+  connect(choose_target_, &QPushButton::clicked, this,
+          [this] { take(target_, choices_.target_to_open(this, startFolder())); });
+  connect(choose_camera_, &QPushButton::clicked, this,
+          [this] { take(camera_, choices_.camera_to_open(this, startFolder())); });
   // Return in a field reads it, and is no click on the first button.
   for (QPushButton* button : findChildren<QPushButton*>()) button->setAutoDefault(false);
   for (QLineEdit* field : {folder_, target_, camera_})
@@ -99,27 +102,13 @@ void CameraDialog::connectParts() {
   });
 }
 
-void CameraDialog::chooseFolder() {
-  const QString folder = choices_.camera_images_to_open(
-      this, folder_->text().isEmpty() ? start_folder_ : folder_->text());
-  if (folder.isEmpty()) return;
-  folder_->setText(QDir::toNativeSeparators(folder));
-  read();
+QString CameraDialog::startFolder() const {
+  return folder_->text().isEmpty() ? start_folder_ : folder_->text();
 }
 
-void CameraDialog::chooseTarget() {
-  const QString path =
-      choices_.target_to_open(this, folder_->text().isEmpty() ? start_folder_ : folder_->text());
+void CameraDialog::take(QLineEdit* field, const QString& path) {
   if (path.isEmpty()) return;
-  target_->setText(QDir::toNativeSeparators(path));
-  read();
-}
-
-void CameraDialog::chooseCamera() {
-  const QString path =
-      choices_.camera_to_open(this, folder_->text().isEmpty() ? start_folder_ : folder_->text());
-  if (path.isEmpty()) return;
-  camera_->setText(QDir::toNativeSeparators(path));
+  field->setText(QDir::toNativeSeparators(path));
   read();
 }
 

@@ -32,9 +32,9 @@ class CameraDialog : public QDialog {
 
  private:
   void connectParts();
-  void chooseFolder();
-  void chooseTarget();
-  void chooseCamera();
+  /// A chosen path, empty if none was, into its field.
+  void take(QLineEdit* field, const QString& path);
+  [[nodiscard]] QString startFolder() const;
   /// Reads what the fields name, in a worker thread: a folder of thousands of files takes a while.
   void read();
   void say(const QString& text);

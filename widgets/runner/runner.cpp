@@ -103,7 +103,6 @@ quint64 Runner::start(Work work) {
   }
   task_ = std::make_shared<Task>();
   task_->id = ++id_;
-  told_.invalidate();
   auto* worker = new Worker(
       task_->stop, [mailbox = mailbox_, task = task_, work = std::move(work), this]() mutable {
         RunContext context;
@@ -168,7 +167,7 @@ void Runner::tell(const std::shared_ptr<Task>& task, const Progress& p) {
 
 void Runner::tell_latest(const std::shared_ptr<Task>& task) {
   if (task != task_) return;
-  if (told_.isValid() && told_.elapsed() < kTellEveryMs) {
+  if (told_.elapsed() < kTellEveryMs) {  // Its stage's beginning was told before.
     QTimer::singleShot(kTellEveryMs - told_.elapsed(), this, [this, task] { tell_latest(task); });
     return;
   }

@@ -215,6 +215,7 @@ TEST(Calibrate, NamesAWrongFocalLengthWhereItLeavesTooFewScenes) {
 // What the joint solve leaves of a few corners, against what poses of their own leave.
 TEST(CornerMisfit, OfFewCornersIsThatOfTheJointSolve) {
   CalibrationResult result;
+  result.options.intrinsics.false_alarm = 0.001;
   result.extrinsic.sigma_px = 0.02;
   result.forward.emplace();
   BoardView view;
@@ -227,17 +228,17 @@ TEST(CornerMisfit, OfFewCornersIsThatOfTheJointSolve) {
   // 24 coordinates, six of them left by the poses: F(24, 6) exceeds 16.9 once in a thousand times.
   const double gate = std::sqrt(16.9);
   result.forward->noise.corner_px = 0.97 * gate * 0.02;
-  EXPECT_FALSE(corner_misfit(result, 0.001));
+  EXPECT_FALSE(corner_misfit(result));
   result.forward->noise.corner_px = 1.03 * gate * 0.02;
-  const auto misfit = corner_misfit(result, 0.001);
+  const auto misfit = corner_misfit(result);
   ASSERT_TRUE(misfit);
   EXPECT_EQ(misfit->px, result.forward->noise.corner_px);
   EXPECT_EQ(misfit->noise_px, 0.02);
   // Replicates say what the noise is.
   result.intrinsics.replicate_px = 0.019;
-  EXPECT_FALSE(corner_misfit(result, 0.001));
+  EXPECT_FALSE(corner_misfit(result));
   result.intrinsics.replicate_px = 0.009;
-  EXPECT_EQ(corner_misfit(result, 0.001)->px, 0.02);
+  EXPECT_EQ(corner_misfit(result)->px, 0.02);
 }
 
 }  // namespace

@@ -72,6 +72,11 @@ class CameraDialogTest : public ::testing::Test {
   bool settled() {
     return test::wait_until([this] { return !dialog_.busy(); }, 60'000);
   }
+  bool calibrates() {
+    button("camera_calibrate")->click();
+    return test::wait_until([this] { return dialog_.page().calibration() && !dialog_.busy(); },
+                            60'000);
+  }
   void choose(const char* folder) {
     answers_.camera_images = photos().at(folder);
     button("photos_choose_folder")->click();
@@ -89,9 +94,7 @@ TEST_F(CameraDialogTest, AFolderOfImagesBecomesACamera) {
   EXPECT_FALSE(button("camera_add")->isVisible());
   choose("photos");
   EXPECT_TRUE(said().contains("6 images")) << said().toStdString();
-  button("camera_calibrate")->click();
-  ASSERT_TRUE(
-      test::wait_until([this] { return dialog_.page().calibration() && !dialog_.busy(); }, 60'000));
+  ASSERT_TRUE(calibrates());
   const auto made = dialog_.page().calibration();
   EXPECT_NEAR(made->camera.fx, photos().truth.fx, 4.0 * made->sigma(0));
   EXPECT_EQ(find<QTreeWidget>(dialog_, "camera_images")->topLevelItemCount(), 6);
@@ -109,9 +112,7 @@ TEST_F(CameraDialogTest, AFolderOfImagesBecomesACamera) {
   EXPECT_EQ(dialog_.page().calibration(), nullptr);
   ASSERT_TRUE(settled());
   EXPECT_FALSE(button("camera_save")->isEnabled());
-  button("camera_calibrate")->click();
-  ASSERT_TRUE(
-      test::wait_until([this] { return dialog_.page().calibration() && !dialog_.busy(); }, 60'000));
+  ASSERT_TRUE(calibrates());
   EXPECT_EQ(dialog_.page().calibration()->camera.model, DistortionModel::kEquidistant);
 }
 
@@ -124,9 +125,7 @@ TEST_F(CameraDialogTest, StartsFromACameraThatIsAboutRight) {
   choose("photos");
   button("photos_choose_camera")->click();
   ASSERT_TRUE(settled());
-  button("camera_calibrate")->click();
-  ASSERT_TRUE(
-      test::wait_until([this] { return dialog_.page().calibration() && !dialog_.busy(); }, 60'000));
+  ASSERT_TRUE(calibrates());
   const auto made = dialog_.page().calibration();
   EXPECT_NEAR(made->camera.fx, photos().truth.fx, 4.0 * made->sigma(0));
   // One of images of another size is no start for these.
