@@ -50,9 +50,11 @@ class LocalPrint {
 /// Beyond the board's outline the print goes on white. Safe to use from several threads.
 class BlurredPrint {
  public:
+  /// h of what is measured: the interpolation's 2·10⁻⁴ a direction stay below the 10⁻³ of the
+  /// contrast that a prediction may be off by.
   static constexpr double kSpacing = 0.5;
-  /// Samples at the whole width: a quarter of the memory, a value off by up to 3·10⁻³. For plans,
-  /// whose blurs are finer than any measured.
+  /// h of plans, whose blurs are finer than any measured: a quarter of the memory, and by the
+  /// fourth power of h a value off by 16 times as much, 3·10⁻³.
   static constexpr double kPlanSpacing = 1.0;
   /// `spacing`: h. Errors are the target's own: it must pass check().
   explicit BlurredPrint(const Target& target, double spacing = kSpacing);
