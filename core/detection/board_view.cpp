@@ -133,6 +133,27 @@ Error twice_in_image() {
                       Message("cover one of them, or leave this scene out"));
 }
 
+// A lone tag whose bits are not found again where its corners and the intrinsics put them: whether
+// they are under a pinhole that knows nothing of this camera.
+Error unconfirmed_tag(const GrayImage& image, const Target& target, const Camera& given,
+                      const DetectionOptions& options, const RunContext& context) {
+  Camera pinhole;
+  pinhole.width_px = given.width_px;
+  pinhole.height_px = given.height_px;
+  pinhole.fx = pinhole.fy = given.width_px;
+  pinhole.cx = 0.5 * (given.width_px - 1);
+  pinhole.cy = 0.5 * (given.height_px - 1);
+  const auto tags = find_board_tags(image, target, pinhole, options, context);
+  if (tags &&
+      std::any_of(tags->begin(), tags->end(), [](const BoardTag& t) { return t.refined; })) {
+    return Error::input(
+        Message("the tag does not look in the image as it would with these intrinsics"), {},
+        Message("check camera.yaml: is it of this camera, and of images of this size?"));
+  }
+  return Error::input(Message("the tag in the image is too small or too blurred"), {},
+                      Message("show it nearer or sharper"));
+}
+
 // How many of the tags lie where a target has them.
 std::size_t fitting_tags(std::vector<BoardTag> tags, const Target& target, const Camera& camera,
                          const DetectionOptions& options) {
@@ -249,10 +270,7 @@ Result<BoardView> view_tags(const GrayImage& image, const Target& target, const 
   // Nothing else confirms a lone tag: its bits must be found in the image again.
   if (target.tag_count() == 1) {
     std::erase_if(tags, [](const BoardTag& tag) { return !tag.refined; });
-    if (tags.empty()) {
-      return Error::input(Message("the tag in the image is too small or too blurred"), {},
-                          Message("show it nearer or sharper"));
-    }
+    if (tags.empty()) return unconfirmed_tag(image, target, camera, options, context);
   }
   if (seen_twice(tags, target)) return twice_in_image();
   const std::vector<BoardTag> seen = tags;

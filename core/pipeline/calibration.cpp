@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/text.h"
+#include "pipeline/camera_resection.h"
 #include "pipeline/diagnosis.h"
 #include "pipeline/quality.h"
 #include "pipeline/scene_copies.h"
@@ -658,7 +659,14 @@ std::optional<Error> too_few_for(const CalibrationResult& result) {
       count([](const SceneResult& scene) { return scene.view && !scene.used && !scene.rejected; });
   if (result.target.has_circles() || used >= kFewestWithoutCircles || lost == 0)
     return std::nullopt;
-  return contradicted_by_images(result);
+  if (const auto error = shared_files(result)) return error;
+  if (const auto error = contradicted_by_images(result)) return error;
+  if (const Message what = intrinsics_that_agree(result); !what.empty()) {
+    return Error::untrusted(
+        Message("images and clouds together contradict the intrinsics: %1", what), result.dataset,
+        Message("check camera.yaml, or calibrate the camera again"));
+  }
+  return std::nullopt;
 }
 
 Status optimize(const CalibrationInput& in, CalibrationResult& result) {

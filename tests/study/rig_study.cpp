@@ -245,16 +245,19 @@ int main(int argc, char** argv) {
   std::vector<RigOutcome> all;
   std::printf(
       "seed,scenes,found,wrong,translation_mm,rotation_mrad,bound_mm,bound_mrad,stated_mm,stated_"
-      "mrad,chi,node_chi,place_chi,dof,inside,quality\n");
+      "mrad,chi,node_chi,place_chi,dof,inside,quality,tx,ty,tz,rx,ry,rz\n");
   std::signal(SIGINT, [](int) { interrupted = 1; });
   for (int k = 0; k < rigs && interrupted == 0; ++k) {
     const std::uint64_t seed = first + static_cast<std::uint64_t>(k);
     all.push_back(run_rig(first_index + k, seed, folder));
     const RigOutcome& o = all.back();
-    std::printf("%llu,%d,%d,%d,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.3f,%.3f,%.2f,%.0f,%d,%s\n",
+    std::printf("%llu,%d,%d,%d,%.4f,%.4f,%.4f,%.4f,%.4f,%.4f,%.3f,%.3f,%.2f,%.0f,%d,%s",
                 static_cast<unsigned long long>(seed), o.scenes, o.found, o.wrong, o.translation_mm,
                 o.rotation_mrad, o.bound_mm, o.bound_mrad, o.stated_mm, o.stated_mrad, o.bound_chi,
                 o.node_chi, o.place_chi, o.dof, o.inside(), o.quality.c_str());
+    // Each component's error in its stated standard deviations.
+    for (const double z : o.normalized) std::printf(",%.2f", z);
+    std::printf("\n");
     std::fflush(stdout);
   }
   summarize(all);
