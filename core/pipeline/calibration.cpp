@@ -360,7 +360,7 @@ Status explain_disagreement(const CalibrationInput& in, CalibrationResult& resul
   return in.context.stopped() ? Status(Error::cancelled()) : Status(Done{});
 }
 
-// What was found elsewhere is the board, though something stands at its place, if it shows the
+// What was found elsewhere is the board, though it is seen not to be at its place, if it shows the
 // print as clearly as some scene does that agrees with others.
 bool shows_print(const CalibrationResult& result, const BoardSearchResult& search) {
   constexpr double kAbout = 0.5;  // Of the evidence: half as many points.
@@ -416,7 +416,7 @@ Status agree(const CalibrationInput& in, Calibration& run) {
       continue;
     }
     const bool elsewhere =
-        found && (scene.place != BoardPlace::kTaken || shows_print(run.result, *scene.search));
+        found && (scene.place == BoardPlace::kOpen || shows_print(run.result, *scene.search));
     scene.contradicts =
         elsewhere || scene.place == BoardPlace::kPast || scene.place == BoardPlace::kHidden;
     scene.reason =

@@ -76,7 +76,7 @@ void add_repeats(Kinds& all) {
     all.back().must_say = MustSay::kAlways;
   }
   const Words few{"only one usable scene", "same files", "one scene"};
-  all.push_back(scenes("one scene alone", {"only one usable scene"},
+  all.push_back(scenes("one scene alone", {"only one usable scene", "needs three or more"},
                        [](CorruptedRig& c) { c.rig.scenes.resize(1); }));
   all.push_back(scenes(
       "one scene alone, nine times", {"same files"},
@@ -86,8 +86,8 @@ void add_repeats(Kinds& all) {
           c.copies.emplace_back(c.rig.scenes[0].name, "Z" + std::to_string(k));
       },
       1));
-  all.push_back(
-      scenes("two scenes", {"two scenes"}, [](CorruptedRig& c) { c.rig.scenes.resize(2); }));
+  all.push_back(scenes("two scenes", {"two scenes", "needs three or more"},
+                       [](CorruptedRig& c) { c.rig.scenes.resize(2); }));
 }
 
 void add_strays(Kinds& all) {

@@ -147,6 +147,19 @@ TEST(SingleTagView, AnotherTagOrTwoOfThemAreRefused) {
   EXPECT_NE(text.find("check tagId"), std::string::npos) << text;
 }
 
+// Intrinsics of images of half the size: far from their principal point a lens bends much.
+TEST(SingleTagView, IntrinsicsOfAnotherImageAreNotTakenForBlur) {
+  const Target target = test::single_tag_target();
+  const Rigid3 pose = testing::facing_pose(target, 1.6, 0.15, 0.4, -0.35);
+  Camera half = kCharucoCamera;
+  for (double* value : {&half.fx, &half.fy, &half.cx, &half.cy}) *value *= 0.5;
+  half.distortion(0) = 0.15;
+  const auto view = find_board_in_image(picture(target, pose), target, half, {}, {});
+  ASSERT_FALSE(view.ok());
+  EXPECT_NE(view.error().text().find("as it would with these intrinsics"), std::string::npos)
+      << view.error().text();
+}
+
 // Boards of programs that draw AprilTags upside down, or count from elsewhere.
 TEST(TagArrangement, SaysHowTheTagsLie) {
   Target target;
