@@ -5161,6 +5161,22 @@ were saved. Take them up again?</source>
         <source>the board is not found in the cloud: something stands where the other scenes put it, with too few lines or points to tell its print</source>
         <translation>点云中未找到标定板：在其他场景所指的位置上有物体，但其上的扫描线或点太少，无法辨认印刷图案</translation>
     </message>
+    <message>
+        <source>check camera.yaml, or calibrate the camera again</source>
+        <translation>检查 camera.yaml，或重新标定相机</translation>
+    </message>
+    <message>
+        <source>check camera.yaml: is it of this camera, and of images of this size?</source>
+        <translation>检查 camera.yaml：它是这台相机的、对应这种图像尺寸的吗？</translation>
+    </message>
+    <message>
+        <source>images and clouds together contradict the intrinsics: %1</source>
+        <translation>图像与点云合在一起与内参矛盾：%1</translation>
+    </message>
+    <message>
+        <source>the tag does not look in the image as it would with these intrinsics</source>
+        <translation>图像中的标签与这些内参下应有的样子不符</translation>
+    </message>
 </context>
 <context>
     <name>CoreWords</name>
