@@ -649,8 +649,9 @@ Status look_at_rejected(const CalibrationInput& in, CalibrationResult& result) {
 }
 
 // Without circles too few scenes are left where some contradict the others: what makes them do so
-// may be what the images say themselves.
-std::optional<Error> too_few_for(const CalibrationResult& result) {
+// may be what the images say themselves, or, where no two agree, how the clouds are read.
+std::optional<Error> too_few_for(const CalibrationInput& in, Calibration& run) {
+  const CalibrationResult& result = run.result;
   const auto count = [&](const auto& is) {
     return std::count_if(result.scenes.begin(), result.scenes.end(), is);
   };
@@ -666,13 +667,16 @@ std::optional<Error> too_few_for(const CalibrationResult& result) {
         Message("images and clouds together contradict the intrinsics: %1", what), result.dataset,
         Message("check camera.yaml, or calibrate the camera again"));
   }
-  return std::nullopt;
+  if (result.consensus.agreeing > 1 || !several_views(result)) return std::nullopt;
+  if (const auto error = wrong_clouds(in, run)) return error;
+  return wrong_size(in, run);
 }
 
-Status optimize(const CalibrationInput& in, CalibrationResult& result) {
+Status optimize(const CalibrationInput& in, Calibration& run) {
+  CalibrationResult& result = run.result;
   in.context.report("optimize", 0.92, Message("joint solve"));
   const auto start = Clock::now();
-  if (const auto error = too_few_for(result)) return *error;
+  if (const auto error = too_few_for(in, run)) return *error;
   std::vector<bool> use;
   for (const SceneResult& scene : result.scenes) use.push_back(scene.used);
   auto solved = resolve_calibration(std::move(result), use, in.request.options, in.context);
@@ -701,7 +705,7 @@ Result<CalibrationResult> calibrate_once(const CalibrationInput& in) {
   if (Status s = agree(in, run); !s) return s.error();
   if (Status s = refine(in, run); !s) return s.error();
   if (Status s = look_at_rejected(in, result); !s) return s.error();
-  if (Status s = optimize(in, result); !s) return s.error();
+  if (Status s = optimize(in, run); !s) return s.error();
   result.times.total_ms = ms_since(start);
   in.context.report("optimize", 1.0, Message("done"));
   return std::move(result);
