@@ -2790,10 +2790,6 @@ were saved. Take them up again?</source>
         <translation>激光雷达的角度与标定板不符（比例、编码器偏心或轴倾斜）；计入后外参移动 %1 mm 和 %2 mrad：请用 lvcalib discover 查找该效应</translation>
     </message>
     <message>
-        <source>the LiDAR&apos;s beams start beside the origin of its frame, by %1 mm; with that the extrinsic moves by %2 mm and %3 mrad: find the effect with lvcalib discover</source>
-        <translation>激光雷达的光束起点偏离其坐标原点 %1 mm；计入后外参移动 %2 mm 和 %3 mrad：请用 lvcalib discover 查找该效应</translation>
-    </message>
-    <message>
         <source>the clouds&apos; coordinates are rounded to steps of %1 mm, which may displace edges of the print by %2 mm: scene %3; write them to the millimetre</source>
         <translation>点云坐标被取整为 %1 mm 的步长，可能使图案边缘偏移 %2 mm：场景 %3；请以毫米或更细的精度写出</translation>
     </message>
@@ -5176,6 +5172,10 @@ were saved. Take them up again?</source>
     <message>
         <source>the tag does not look in the image as it would with these intrinsics</source>
         <translation>图像中的标签与这些内参下应有的样子不符</translation>
+    </message>
+    <message>
+        <source>the LiDAR&apos;s beams start beside the origin of its frame, by %1 mm; with that the extrinsic moves by %2 mm and %3 mrad: are the clouds in another frame, as a vehicle&apos;s? if not, find the effect with lvcalib discover</source>
+        <translation>激光雷达的光束起点偏离其坐标原点 %1 mm；计入后外参移动 %2 mm 和 %3 mrad：点云是否在其他坐标系（如车体坐标系）中？若不是，请用 lvcalib discover 查找该效应</translation>
     </message>
 </context>
 <context>

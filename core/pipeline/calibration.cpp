@@ -447,17 +447,21 @@ void do_without_circles(SceneResult& scene) {
   scene.used = true;
 }
 
-// Where most scenes, three at least, agree on the print's place and too few circles can be
+// Where most scenes, three at least, agree on the print's place and not half of the circles can be
 // measured in some of them (numbers in coarse steps, few lines or points), the print as a whole
-// still tells.
+// still tells; what edges such circles were given is chance.
 void use_without_circles(CalibrationResult& result) {
   int views = 0;
   for (const SceneResult& scene : result.scenes) views += scene.view ? 1 : 0;
   const int agreeing = result.consensus.agreeing;
   if (agreeing < 3 || 2 * agreeing < views) return;
   for (SceneResult& scene : result.scenes) {
-    if (scene.chosen && scene.refinement && !scene.used && !scene.reason.empty())
-      do_without_circles(scene);
+    if (!scene.chosen || !scene.refinement) continue;
+    const int circles = static_cast<int>(scene.refinement->nodes.size());
+    const int valid = scene.refinement->valid_nodes();
+    if (scene.used && 2 * valid < circles)
+      scene.reason = Message("only %1 of %2 circles usable", valid, circles);
+    if (!scene.reason.empty()) do_without_circles(scene);
   }
 }
 

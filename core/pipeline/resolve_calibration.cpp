@@ -11,6 +11,7 @@
 #include "pipeline/quality.h"
 #include "pipeline/refusals.h"
 #include "pipeline/stopwatch.h"
+#include "pipeline/verdict.h"
 
 namespace lvcalib {
 namespace {
@@ -32,16 +33,20 @@ Status respond(CalibrationResult& result, const Target& target, const Calibratio
   return Done{};
 }
 
+ForwardOptions forward_options(const CalibrationResult& result) {
+  ForwardOptions how = result.options.forward;
+  how.intrinsics_sigma = solve_prior(result.intrinsics);
+  how.intrinsics_evidence = result.intrinsics.evidence;
+  how.first_camera = result.camera;
+  return how;
+}
+
 // Every corner and return in one model; where that fails, what nodes and planes say stands. With
 // the intrinsics freed, `nodes` is solved again under the camera that comes out.
 Status solve_forward_model(CalibrationResult& result, const FeatureInput& in,
                            const std::vector<std::size_t>& index, ExtrinsicSolution& nodes,
                            const RunContext& context) {
-  if (!result.print) result.print = std::make_shared<const BlurredPrint>(result.target);
-  ForwardOptions how = result.options.forward;
-  how.intrinsics_sigma = solve_prior(result.intrinsics);
-  how.intrinsics_evidence = result.intrinsics.evidence;
-  how.first_camera = result.camera;
+  ForwardOptions how = forward_options(result);
   auto forward = solve_every_return(result, in.scenes, index, nodes, how, context);
   if (forward && result.intrinsics.mode != IntrinsicsMode::kFixed) {
     // The start rested on a camera that the corners alone had given. With the better one scenes may
@@ -166,6 +171,54 @@ Result<ExtrinsicSolution> solve_with_insisted(CalibrationResult& result, const T
   return solve_extrinsic({observations, result.camera, target, options});
 }
 
+// Circles that few lines cross are found beside their places, and put the whole extrinsic so far
+// off that sound scenes contradict it. What nodes and planes have against scenes is therefore asked
+// of every corner and return, with these scenes in: those that agree stay, `observations` and
+// `options` become what was solved. Without returns that tell, the nodes' verdict stands.
+Status reconsider_scenes(CalibrationResult& result, const Target& target,
+                         const std::vector<std::size_t>& index,
+                         std::vector<SceneObservations>& observations, ExtrinsicOptions& options,
+                         ExtrinsicSolution& nodes, const RunContext& context) {
+  std::vector<std::size_t> suspects;
+  for (std::size_t k = 0; k < observations.size(); ++k) {
+    if (observations[k].use && !nodes.scenes[k].used) suspects.push_back(k);
+  }
+  if (suspects.empty()) return Done{};
+  ExtrinsicOptions together = options;
+  together.reject_bad_scenes = false;
+  std::vector<SceneObservations> asked = observations;
+  while (!suspects.empty()) {
+    auto all = solve_extrinsic({asked, result.camera, target, together});
+    if (!all) return Done{};
+    const auto forward =
+        solve_every_return(result, asked, index, *all, forward_options(result), context);
+    if (context.stopped()) return Error::cancelled();
+    if (!forward || !forward->uses_intensity) return Done{};
+    std::vector<std::size_t> place(asked.size(), 0);
+    for (std::size_t k = 0, next = 0; k < asked.size(); ++k) place[k] = asked[k].use ? next++ : 0;
+    const auto bad = std::find_if(suspects.begin(), suspects.end(), [&](std::size_t k) {
+      return agreement_of(*forward, place[k], result.options.quality) != SceneAgreement::kAgrees;
+    });
+    if (bad != suspects.end()) {
+      asked[*bad].use = false;
+      suspects.erase(bad);
+      continue;
+    }
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+      if (asked[k].use || !observations[k].use) continue;
+      SceneResult& scene = result.scenes[index[k]];
+      scene.used = false;
+      scene.reason = nodes.scenes[k].reason;
+      scene.contradicts = true;
+    }
+    observations = std::move(asked);
+    options = together;
+    nodes = std::move(*all);
+    return Done{};
+  }
+  return Done{};
+}
+
 }  // namespace
 
 void reject(SceneResult& scene) {
@@ -211,6 +264,10 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
     return error;
   }
   ExtrinsicSolution nodes = std::move(*solution);
+  if (!result.print) result.print = std::make_shared<const BlurredPrint>(result.target);
+  if (Status s = reconsider_scenes(result, target, index, observations, extrinsic, nodes, context);
+      !s)
+    return s.error();
   const FeatureInput in{observations, result.camera, target, extrinsic};
   if (Status status = solve_forward_model(result, in, index, nodes, context); !status)
     return status.error();

@@ -128,6 +128,12 @@ class Motions {
     common_ = of([](std::size_t) { return true; });
   }
 
+  // Both the scenes from `first` to before `last` and the others determine the extrinsic.
+  [[nodiscard]] bool told(std::size_t first, std::size_t last) const {
+    const auto inside = [&](std::size_t s) { return s >= first && s < last; };
+    return of(inside).freedom == 6 && of([&](std::size_t s) { return !inside(s); }).freedom == 6;
+  }
+
   // Scenes from `first` to before `last` have an extrinsic of their own.
   [[nodiscard]] double apart(std::size_t first, std::size_t last) const {
     const auto inside = [&](std::size_t s) { return s >= first && s < last; };
@@ -194,6 +200,31 @@ class Motions {
 };
 
 }  // namespace
+
+SceneAgreement agreement_of(const ForwardSolution& forward, std::size_t scene,
+                            const QualityOptions& options) {
+  constexpr double kChance = 0.001;  // As unlikely as what is called a motion.
+  std::vector<SceneInformation> told;
+  std::vector<bool> own(forward.terms.size(), false);
+  std::vector<bool> others(forward.terms.size(), true);
+  for (const GlobalTerm& term : forward.terms) {
+    if (!term.usable) return SceneAgreement::kUntold;
+    told.push_back({term.information.topLeftCorner<6, 6>(), term.gradient.head<6>()});
+  }
+  const Motions motions(std::move(told));
+  if (!motions.told(scene, scene + 1)) return SceneAgreement::kUntold;
+  if (!(motions.apart(scene, scene + 1) < kChance)) return SceneAgreement::kAgrees;
+  own[scene] = true;
+  others[scene] = false;
+  const auto one = solve_subset(forward, own);
+  const auto rest = solve_subset(forward, others);
+  if (!one || !rest) return SceneAgreement::kUntold;
+  const bool matters =
+      translation_distance_m(one->transform.inverse(), rest->transform.inverse()) >
+          options.tolerance_m ||
+      rotation_distance_rad(one->transform, rest->transform) > options.tolerance_rad;
+  return matters ? SceneAgreement::kContradicts : SceneAgreement::kAgrees;
+}
 
 void judge_bump(const CalibrationResult& result, Verdict& verdict) {
   if (!result.forward) return;
@@ -307,7 +338,8 @@ void judge_scans(const CalibrationResult& result, const QualityOptions& q, Verdi
     if (fault.kind == ScanFault::Kind::kOrigin) {
       verdict.doubtful(
           Message("the LiDAR's beams start beside the origin of its frame, by %1 mm; with that the "
-                  "extrinsic moves by %2 mm and %3 mrad: find the effect with lvcalib discover",
+                  "extrinsic moves by %2 mm and %3 mrad: are the clouds in another frame, as a "
+                  "vehicle's? if not, find the effect with lvcalib discover",
                   size, move_mm, move_mrad));
       continue;
     }

@@ -295,6 +295,41 @@ TEST(Calibrate, WithoutIntensityIsAsIfTheCloudsHadNone) {
   expect_within_four_sigma(*left_out, data.rig().camera_from_lidar);
 }
 
+// Of four scenes one has its circles measured beside their places, or its board was moved between
+// cloud and image: nodes and planes refuse it either way, every return tells which it is.
+TEST(Calibrate, ReturnsDecideWhetherAScenesCirclesOrItsBoardIsWrong) {
+  const test::SimulatedDataset data(test::dataset_options(1, 4));
+  const auto all = calibrate(data.open(), {}, {});
+  ASSERT_TRUE(all.ok()) << all.error().text();
+  const Vector6d moved = (Vector6d() << 0.02, 0.01, 0.015, 0.0, 0.0, 0.01).finished();
+  const std::vector<bool> use(4, true);
+
+  CalibrationResult circles = *all;
+  for (RefinedNode& node : circles.scenes[2].refinement->nodes)
+    node.center_lidar_m = se3_exp(moved) * node.center_lidar_m;
+  const auto kept = resolve_calibration(std::move(circles), use, {});
+  ASSERT_TRUE(kept.ok()) << kept.error().text();
+  EXPECT_TRUE(kept->scenes[2].used) << kept->scenes[2].reason.text();
+  EXPECT_EQ(kept->extrinsic.used_scenes, 4);
+  expect_within_four_sigma(*kept, data.rig().camera_from_lidar);
+
+  CalibrationResult board = *all;
+  SceneResult& scene = board.scenes[2];
+  for (CornerObservation& corner : scene.view->corners) {
+    const Eigen::Vector3d place =
+        se3_exp(moved) * (scene.view->camera_from_board.transform *
+                          Eigen::Vector3d(corner.board_m.x(), corner.board_m.y(), 0.0));
+    corner.pixel = *data.rig().camera.project(place);
+  }
+  refit_view(*scene.view, data.rig().camera, {});
+  const auto refused = resolve_calibration(std::move(board), use, {});
+  ASSERT_TRUE(refused.ok()) << refused.error().text();
+  EXPECT_FALSE(refused->scenes[2].used);
+  EXPECT_TRUE(refused->scenes[2].contradicts);
+  EXPECT_THAT(refused->scenes[2].reason.text(), HasSubstr("contradicts the other scenes by"));
+  expect_within_four_sigma(*refused, data.rig().camera_from_lidar);
+}
+
 // Everything that a result says of itself is there after a calibration and after leaving a scene
 // out.
 TEST(Calibrate, EvidenceFollowsTheScenesInUse) {
