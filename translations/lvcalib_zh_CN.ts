@@ -5177,6 +5177,10 @@ were saved. Take them up again?</source>
         <source>the LiDAR&apos;s beams start beside the origin of its frame, by %1 mm; with that the extrinsic moves by %2 mm and %3 mrad: are the clouds in another frame, as a vehicle&apos;s? if not, find the effect with lvcalib discover</source>
         <translation>激光雷达的光束起点偏离其坐标原点 %1 mm；计入后外参移动 %2 mm 和 %3 mrad：点云是否在其他坐标系（如车体坐标系）中？若不是，请用 lvcalib discover 查找该效应</translation>
     </message>
+    <message>
+        <source>the board is not found in the cloud: no return lies on it where the other scenes put it</source>
+        <translation>点云中找不到标定板：在其他场景给出的位置上没有任何回波</translation>
+    </message>
 </context>
 <context>
     <name>CoreWords</name>

@@ -360,10 +360,11 @@ Status explain_disagreement(const CalibrationInput& in, CalibrationResult& resul
   return in.context.stopped() ? Status(Error::cancelled()) : Status(Done{});
 }
 
-// What was found elsewhere is the board, though it is seen not to be at its place, if it shows the
-// print as clearly as some scene does that agrees with others.
-bool shows_print(const CalibrationResult& result, const BoardSearchResult& search) {
+// What was found elsewhere than two other scenes put it is the board if it shows the print as
+// clearly as some scene does that agrees with others: panels of a board's size are everywhere.
+bool found_elsewhere(const CalibrationResult& result, const BoardSearchResult& search) {
   constexpr double kAbout = 0.5;  // Of the evidence: half as many points.
+  if (result.consensus.agreeing < 2) return !search.candidates.empty();
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t s = 0; s < result.scenes.size(); ++s) {
     const auto& chosen = result.consensus.chosen[s];
@@ -415,8 +416,7 @@ Status agree(const CalibrationInput& in, Calibration& run) {
           Message("the board found in the cloud does not agree with the other scenes");
       continue;
     }
-    const bool elsewhere =
-        found && (scene.place == BoardPlace::kOpen || shows_print(run.result, *scene.search));
+    const bool elsewhere = scene.search && found_elsewhere(run.result, *scene.search);
     scene.contradicts =
         elsewhere || scene.place == BoardPlace::kPast || scene.place == BoardPlace::kHidden;
     scene.reason =

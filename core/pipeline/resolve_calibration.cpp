@@ -219,6 +219,34 @@ Status reconsider_scenes(CalibrationResult& result, const Target& target,
   return Done{};
 }
 
+// A panel beside the board may have been taken for it. True if a scene is out by that.
+bool refuse_unseen(CalibrationResult& result, const std::vector<std::size_t>& index,
+                   const ExtrinsicSolution& nodes, std::vector<SceneObservations>& observations) {
+  if (!result.forward || nodes.used_scenes < 2) return false;
+  bool any = false;
+  for (std::size_t k = 0, next = 0; k < index.size(); ++k) {
+    if (!nodes.scenes[k].used) continue;
+    SceneResult& scene = result.scenes[index[k]];
+    if (result.forward->scenes[next++].seen > 0.0 || scene.insisted) continue;
+    observations[k].use = false;
+    scene.used = false;
+    scene.reason = Message(
+        "the board is not found in the cloud: no return lies on it where the other scenes put it");
+    any = true;
+  }
+  return any;
+}
+
+Error not_solvable(Error error, const CalibrationResult& result) {
+  error.where = result.dataset;
+  for (const SceneResult& scene : result.scenes) {
+    if (scene.reason.empty()) continue;
+    error.message += Message::verbatim("; ") + Message("scene %1: %2", scene.name, scene.reason);
+    break;
+  }
+  return error;
+}
+
 }  // namespace
 
 void reject(SceneResult& scene) {
@@ -246,31 +274,26 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
   result.unexplained.clear();
   result.lacking.clear();
   take_back_refused(result);
+  if (!result.print) result.print = std::make_shared<const BlurredPrint>(result.target);
   std::vector<std::size_t> index;
   auto observations = observations_of(result, use, index);
   const Target target = target_in_use(result, observations);
   ExtrinsicOptions extrinsic = options.extrinsic;
-  auto solution = solve_with_insisted(result, target, index, observations, extrinsic);
-  if (!solution) {
-    Error error = solution.error();
-    error.where = result.dataset;
-    for (const SceneResult& scene : result.scenes) {
-      if (!scene.reason.empty()) {
-        error.message +=
-            Message::verbatim("; ") + Message("scene %1: %2", scene.name, scene.reason);
-        break;
-      }
-    }
-    return error;
-  }
-  ExtrinsicSolution nodes = std::move(*solution);
-  if (!result.print) result.print = std::make_shared<const BlurredPrint>(result.target);
-  if (Status s = reconsider_scenes(result, target, index, observations, extrinsic, nodes, context);
-      !s)
-    return s.error();
+  ExtrinsicSolution nodes;
+  do {
+    auto solution = solve_with_insisted(result, target, index, observations, extrinsic);
+    if (!solution) return not_solvable(std::move(solution).error(), result);
+    nodes = std::move(*solution);
+    if (Status s =
+            reconsider_scenes(result, target, index, observations, extrinsic, nodes, context);
+        !s)
+      return s.error();
+    if (Status s = solve_forward_model(result, {observations, result.camera, target, extrinsic},
+                                       index, nodes, context);
+        !s)
+      return s.error();
+  } while (refuse_unseen(result, index, nodes, observations));
   const FeatureInput in{observations, result.camera, target, extrinsic};
-  if (Status status = solve_forward_model(result, in, index, nodes, context); !status)
-    return status.error();
   if (Status s = check_intrinsics(result, observations, index, nodes, context); !s)
     return s.error();
   verify_intrinsics(result);

@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <mutex>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,7 @@ struct RigOutcome {
   double place_chi = 0.0;
   std::vector<double> node_errors_mm;
   std::vector<double> corner_errors_px;
+  std::vector<double> view_chi;  // Of the boards' poses from their images alone, eᵀC⁻¹e/6.
   std::string quality;
 };
 
@@ -67,6 +69,9 @@ simulation::SimulationOptions rig_options(int index, std::uint64_t seed) {
 void compare_scene(const simulation::SimulatedRig& rig, const simulation::SimulatedScene& truth,
                    const SceneResult& scene, RigOutcome& outcome) {
   if (scene.view) {
+    const UncertainRigid3& seen = scene.view->camera_from_board;
+    const Vector6d off = se3_log(truth.camera_from_board * seen.transform.inverse());
+    outcome.view_chi.push_back(off.dot(seen.covariance.ldlt().solve(off)) / 6.0);
     for (const CornerObservation& c : scene.view->corners) {
       const auto p = rig.camera.project(truth.camera_from_board *
                                         Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0));
@@ -190,7 +195,7 @@ void summarize_kind(const std::vector<RigOutcome>& all, int scanner, bool circle
 
 void summarize(const std::vector<RigOutcome>& all) {
   int scenes = 0, found = 0, wrong = 0, unsolved = 0, inside = 0, components = 0;
-  std::vector<double> few_t, few_r, many_t, many_r, t, r, bt, br, nodes, corners;
+  std::vector<double> few_t, few_r, many_t, many_r, t, r, bt, br, nodes, corners, views;
   for (const RigOutcome& o : all) {
     scenes += o.scenes;
     found += o.found;
@@ -198,6 +203,7 @@ void summarize(const std::vector<RigOutcome>& all) {
     unsolved += o.solved ? 0 : 1;
     nodes.insert(nodes.end(), o.node_errors_mm.begin(), o.node_errors_mm.end());
     corners.insert(corners.end(), o.corner_errors_px.begin(), o.corner_errors_px.end());
+    views.insert(views.end(), o.view_chi.begin(), o.view_chi.end());
     if (!o.solved) continue;
     t.push_back(o.translation_mm);
     r.push_back(o.rotation_mrad);
@@ -220,6 +226,10 @@ void summarize(const std::vector<RigOutcome>& all) {
               rms(r), rms(bt), rms(br), rms(t) / rms(bt), rms(r) / rms(br));
   std::printf("node centres %.3f mm RMS (%zu); corners %.4f px RMS per axis (%zu)\n", rms(nodes),
               nodes.size(), rms(corners), corners.size());
+  std::printf("poses of boards in images: mean e'C^-1e/6 %.3f (%zu)\n",
+              std::accumulate(views.begin(), views.end(), 0.0) /
+                  std::max<double>(1.0, static_cast<double>(views.size())),
+              views.size());
   double chi = 0.0;
   for (const RigOutcome& o : all) chi += o.solved ? o.bound_chi : 0.0;
   std::printf("mean of e'Fe/6 over all rigs: %.3f\n",

@@ -330,6 +330,23 @@ TEST(Calibrate, ReturnsDecideWhetherAScenesCirclesOrItsBoardIsWrong) {
   expect_within_four_sigma(*refused, data.rig().camera_from_lidar);
 }
 
+TEST(Calibrate, ASceneWithoutReturnsOnTheBoardIsLeftOut) {
+  const test::SimulatedDataset data(test::dataset_options(1, 4));
+  auto all = calibrate(data.open(), {}, {});
+  ASSERT_TRUE(all.ok()) << all.error().text();
+  for (Eigen::Vector3f& p : all->scenes[1].board_points.points_m) p.x() += 3.0F;
+  const auto less = resolve_calibration(*all, std::vector<bool>(4, true), {});
+  ASSERT_TRUE(less.ok()) << less.error().text();
+  EXPECT_FALSE(less->scenes[1].used);
+  EXPECT_THAT(less->scenes[1].reason.text(), HasSubstr("no return lies on it"));
+  EXPECT_EQ(less->extrinsic.used_scenes, 3);
+  EXPECT_EQ(less->quality, Quality::kGood);
+  const auto without = resolve_calibration(*all, {true, false, true, true}, {});
+  ASSERT_TRUE(without.ok());
+  EXPECT_EQ(less->extrinsic.camera_from_lidar.transform.translation,
+            without->extrinsic.camera_from_lidar.transform.translation);
+}
+
 // Everything that a result says of itself is there after a calibration and after leaving a scene
 // out.
 TEST(Calibrate, EvidenceFollowsTheScenesInUse) {
