@@ -368,7 +368,8 @@ void judge_splits(const CalibrationResult& result, Verdict& verdict) {
 }
 
 // Without a second one the best extrinsic by other places has the evidence of one scene, of two
-// scenes half of all; with one it has nearly all. Outlines alone have likenesses of their own.
+// scenes half of all; with one it has nearly all. Outlines alone have likenesses: two scenes may
+// find panels that agree.
 void judge_second_board(const CalibrationResult& result, Verdict& verdict) {
   constexpr double kMostOfIt = 0.75;  // Half way between the two.
   const auto by_print = [](const SceneResult& scene) {
@@ -376,9 +377,8 @@ void judge_second_board(const CalibrationResult& result, Verdict& verdict) {
            scene.search->candidates[*scene.chosen].correlation > 0.0;
   };
   const SceneConsensus& consensus = result.consensus;
-  if (consensus.agreeing < 2 || !(consensus.score > 0.0) ||
-      std::none_of(result.scenes.begin(), result.scenes.end(), by_print))
-    return;
+  const int fewest = std::any_of(result.scenes.begin(), result.scenes.end(), by_print) ? 2 : 3;
+  if (consensus.agreeing < fewest || !(consensus.score > 0.0)) return;
   const double share = consensus.elsewhere / consensus.score;
   if (share < kMostOfIt) return;
   verdict.doubtful(
