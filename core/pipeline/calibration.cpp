@@ -13,6 +13,7 @@
 #include "pipeline/quality.h"
 #include "pipeline/scene_copies.h"
 #include "pipeline/scene_loading.h"
+#include "pipeline/standing_board.h"
 #include "pipeline/stopwatch.h"
 #include "pipeline/turned_images.h"
 
@@ -375,6 +376,25 @@ bool found_elsewhere(const CalibrationResult& result, const BoardSearchResult& s
       [&](const BoardCandidate& c) { return c.correlation > 0.0 && c.gain >= kAbout * least; });
 }
 
+// Boards that few lines or points show are not told from anything else flat, but where the other
+// scenes put them there is nothing else.
+Status take_standing_boards(const CalibrationInput& in, Calibration& run) {
+  const Rigid3 lidar_from_camera = run.result.consensus.camera_from_lidar.transform.inverse();
+  for (std::size_t s = 0; s < run.result.scenes.size(); ++s) {
+    SceneResult& scene = run.result.scenes[s];
+    if (!scene.view || !scene.reason.empty() || run.result.consensus.chosen[s] ||
+        scene.place != BoardPlace::kTaken ||
+        (scene.search && found_elsewhere(run.result, *scene.search)))
+      continue;
+    const auto cloud = read_scene_cloud(in.dataset.scenes[s], in.request, in.context.stop);
+    if (!cloud) return cloud.error();
+    auto found = find_standing_board(*cloud, run.result.target,
+                                     lidar_from_camera * scene.view->camera_from_board.transform);
+    if (found) scene.search = std::move(*found);
+  }
+  return Done{};
+}
+
 Status agree(const CalibrationInput& in, Calibration& run) {
   in.context.report("localize", 0.7, Message("comparing scenes"));
   auto consensus = decide(in, run.result);
@@ -396,6 +416,11 @@ Status agree(const CalibrationInput& in, Calibration& run) {
     run.result.consensus = *consensus;
     if (Status s = search_again(in, run, consensus->camera_from_lidar.transform); !s) return s;
     consensus = decide(in, run.result);
+    if (consensus && consensus->agreeing >= 2) {
+      run.result.consensus = *consensus;
+      if (Status s = take_standing_boards(in, run); !s) return s;
+      consensus = decide(in, run.result);
+    }
   }
   // Or the LiDAR does not see the print, and what a scene took for it is something else.
   if (Status s = consider_plain_boards(in, run.result, consensus); !s) return s;

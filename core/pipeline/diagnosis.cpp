@@ -212,8 +212,14 @@ std::optional<Error> diagnose_mirrored(const Dataset& dataset, const Calibration
                                .candidates;
   });
   const auto consensus = decide_scenes(scenes, std::nullopt, request.options.consensus);
-  if (context.stopped() || !consensus || consensus->agreeing < std::max(2, agreeing + 1))
-    return std::nullopt;
+  if (context.stopped() || !consensus) return std::nullopt;
+  // Outlines alone have likenesses: two scenes may find panels that agree.
+  bool by_print = false;
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    const auto& chosen = consensus->chosen[k];
+    by_print = by_print || (chosen && scenes[k].candidates[*chosen].correlation > 0.0);
+  }
+  if (consensus->agreeing < std::max(by_print ? 2 : 3, agreeing + 1)) return std::nullopt;
   return Error::untrusted(
       Message("the scenes do not agree, but %1 of them do if the clouds are mirrored (their axes "
               "make a left-handed frame)",

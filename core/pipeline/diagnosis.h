@@ -45,7 +45,8 @@ std::optional<Error> diagnose_exchanged_clouds(const Dataset& dataset,
                                                const RunContext& context);
 
 /// After scenes have found boards that do not agree: whether more of them than did, and two at
-/// least, agree once the clouds are taken for mirrored ones. The error that says so.
+/// least (by outlines alone three), agree once the clouds are taken for mirrored ones. The error
+/// that says so.
 std::optional<Error> diagnose_mirrored(const Dataset& dataset, const CalibrationRequest& request,
                                        const CalibrationResult& result,
                                        std::vector<SceneHypotheses> scenes, int agreeing,

@@ -294,8 +294,6 @@ Status search_scene_again(const SecondSearch& where, const RunContext& context, 
                    options, context);
   if (context.stopped()) return Error::cancelled();
   if (region.radius_m > 0) look.place = look_at_place(*cloud, region.center_m, where.target);
-  if (look.place == BoardPlace::kTaken && !look.search.candidates.empty())
-    look.place = BoardPlace::kOpen;
   take(look);
   if (cache != nullptr) cache->scene(where.files.name).second_look.keep(key, std::move(look));
   return Done{};

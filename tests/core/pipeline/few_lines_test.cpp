@@ -108,6 +108,28 @@ TEST(FewPoints, OnABoardAreNoContradictionButItsPrintElsewhereIs) {
   }
 }
 
+// Half of the board of one scene is above the LiDAR's field of view, too little for the search.
+TEST(CutOffBoard, IsUsedWhereTheOthersPutIt) {
+  simulation::SimulationOptions options = test::dataset_options(9'940'004, 3);
+  options.target = test::checkerboard_target();
+  options.lidar.kind = simulation::LidarKind::kSpinning;
+  options.lidar.lines = 64;
+  options.lidar.points = 60'000;
+  const test::SimulatedDataset data(options);
+  const auto result = calibrate(data.open(), {}, {});
+  ASSERT_TRUE(result.ok()) << result.error().text();
+  EXPECT_EQ(result->extrinsic.used_scenes, 3);
+  EXPECT_EQ(result->quality, Quality::kGood);
+  ASSERT_TRUE(result->forward);
+  double seen = 1.0;
+  for (const auto& scene : result->forward->scenes) seen = std::min(seen, scene.seen);
+  EXPECT_LT(seen, 0.6);
+  const Vector6d off = se3_log(data.rig().camera_from_lidar *
+                               result->extrinsic.camera_from_lidar.transform.inverse());
+  const Matrix6d& covariance = result->extrinsic.camera_from_lidar.covariance;
+  for (int k = 0; k < 6; ++k) EXPECT_LT(std::abs(off(k)), 4.0 * std::sqrt(covariance(k, k))) << k;
+}
+
 INSTANTIATE_TEST_SUITE_P(Lines, FewLines, ::testing::Values(16, 32));
 
 }  // namespace
