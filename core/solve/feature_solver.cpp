@@ -16,9 +16,12 @@ Status enough_scenes(const std::vector<SceneObservations>& scenes, const Target&
   if (used == 0) return Error::untrusted(Message("no usable scene is left"));
   if (!target.has_circles() && used < kFewestWithoutCircles) {
     return Error::untrusted(
-        Message(
-            "%1 usable scenes; a target without circles needs three or more, differently turned",
-            used),
+        used == 1
+            ? Message("one usable scene; a target without circles needs three or more, differently "
+                      "turned")
+            : Message("%1 usable scenes; a target without circles needs three or more, differently "
+                      "turned",
+                      used),
         {}, Message("take scenes with the board tilted left, right, up and down"));
   }
   return Done{};
