@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "model/linear_model.h"
@@ -61,18 +63,43 @@ struct PrintSensitivity {
   };
 };
 
-/// Turns what effects move into what rows measure. Every hook is called for every row; effects
-/// write nothing where they have nothing to say.
+/// Tells a scene's returns apart, in the order of the scan, which is a table's. Rows of the same
+/// return have the same beam.
+struct ReturnKey {
+  explicit ReturnKey(const BeamPoint& beam)
+      : time_s(beam.time_s),
+        line(beam.line),
+        azimuth_rad(beam.azimuth_rad),
+        elevation_rad(beam.elevation_rad) {}
+  double time_s;
+  int line;
+  double azimuth_rad, elevation_rad;
+  auto operator<=>(const ReturnKey&) const = default;
+};
+
+/// Turns what effects move into what rows of one scene measure. Every hook is called for every row,
+/// or for every return where that is all it sees; effects write nothing where they have nothing to
+/// say.
 class EffectRows {
  public:
   EffectRows(const MeasurementTable& table, std::span<const EffectColumns> columns)
       : table_(table), columns_(columns) {
     std::size_t most = 1;
-    for (const EffectColumns& c : columns) most = std::max(most, c.parameters.size());
-    moves_.resize(most);
+    std::size_t all = 0;
+    for (const EffectColumns& c : columns) {
+      most = std::max(most, c.parameters.size());
+      all += c.parameters.size();
+    }
+    moves_.resize(all);
+    shifts_.resize(all);
     board_.resize(most);
     pixels_.resize(most);
     scalars_.resize(most);
+    further_.resize(most);
+    outward_.resize(most);
+    blur_.resize(most);
+    spot_.resize(most);
+    lit_.resize(most);
   }
 
   /// What one unit of each parameter of an effect does to a range: by itself, and by displacing the
@@ -87,24 +114,17 @@ class EffectRows {
   template <class Sink>
   void range(const RangeRow& r, const Eigen::Vector3d& row, const PrintSensitivity::Moves& moves,
              const BoundaryRow* edge, Sink&& sink) {
+    follow(r.beam, moves);
     for (const EffectColumns& c : columns_) {
       const std::size_t n = c.parameters.size();
-      reset(n);
-      further_.assign(n, 0.0);
-      outward_.assign(n, 0.0);
-      shift_.assign(n, Eigen::Vector2d::Zero());
-      c.effect->lidar(r.beam, table_, c.shape, std::span(moves_).first(n));
-      c.effect->range(r, table_, c.shape, further_);
-      c.effect->board({r.beam.board_m, Eigen::Vector2d::Zero()}, table_.target, c.shape,
-                      std::span(board_).first(n));
-      if (edge != nullptr && !c.print_contrast) c.effect->edge(*edge, table_, c.shape, outward_);
+      const auto further = cleared(further_, n);
+      const auto outward = cleared(outward_, n);
+      c.effect->range(r, table_, c.shape, further);
+      if (edge != nullptr && !c.print_contrast) c.effect->edge(*edge, table_, c.shape, outward);
       const double sign = c.print_contrast && r.print != Print::kWhite ? -1.0 : 1.0;
-      for (std::size_t k = 0; k < n; ++k) {
-        const Eigen::Vector3d move = moves_[k] + moves.rotation * board_[k];
-        scalars_[k] = sign * (row.dot(move) + further_[k]);
-        if (!c.print_contrast) shift_[k] = shift_of(move, moves);
-      }
-      sink(c, RangeChange{std::span(scalars_).first(n), shift_, outward_});
+      const auto own = of(c, moves_);
+      for (std::size_t k = 0; k < n; ++k) scalars_[k] = sign * (row.dot(own[k]) + further[k]);
+      sink(c, RangeChange{std::span(scalars_).first(n), of(c, shifts_), outward});
     }
   }
 
@@ -115,12 +135,12 @@ class EffectRows {
     for (const EffectColumns& c : columns_) {
       if (c.print_contrast) continue;
       const std::size_t n = c.parameters.size();
-      reset(n);
-      c.effect->board({r.board_m, r.from_tag_m}, table_.target, c.shape,
-                      std::span(board_).first(n));
-      c.effect->camera(r, normalized, table_.camera, c.shape, std::span(pixels_).first(n));
-      for (std::size_t k = 0; k < n; ++k) pixels_[k] += by_board_move * board_[k];
-      sink(c, std::span(pixels_).first(n));
+      const auto board = cleared(board_, n);
+      const auto pixels = cleared(pixels_, n);
+      c.effect->board({r.board_m, r.from_tag_m}, table_.target, c.shape, board);
+      c.effect->camera(r, normalized, table_.camera, c.shape, pixels);
+      for (std::size_t k = 0; k < n; ++k) pixels[k] += by_board_move * board[k];
+      sink(c, pixels);
     }
   }
 
@@ -128,38 +148,70 @@ class EffectRows {
   template <class Sink>
   void reading(const IntensityRow& r, const BoundaryRow* edge, const PrintSensitivity::Moves& moves,
                Sink&& sink) {
+    follow(r.beam, moves);
     for (const EffectColumns& c : columns_) {
       const std::size_t n = c.parameters.size();
-      reset(n);
-      std::fill_n(scalars_.begin(), n, 0.0);
-      outward_.assign(n, 0.0);
-      blur_.assign(n, Eigen::Vector3d::Zero());
-      shift_.assign(n, Eigen::Vector2d::Zero());
-      c.effect->intensity(r, table_, c.shape, std::span(scalars_).first(n));
+      const auto log_intensity = cleared(scalars_, n);
+      const auto outward = cleared(outward_, n);
+      const auto blur = cleared(blur_, n);
+      std::span<const Eigen::Vector2d> shifts = of(c, shifts_);
+      c.effect->intensity(r, table_, c.shape, log_intensity);
       if (c.print_contrast) {
         // A difference between the prints: edges have both.
         const bool plain = edge == nullptr || (edge->beam.edge && edge->beam.edge->plain);
         for (std::size_t k = 0; k < n; ++k)
-          scalars_[k] *= !plain ? 0.0 : r.print == Print::kWhite ? 1.0 : -1.0;
+          log_intensity[k] *= !plain ? 0.0 : r.print == Print::kWhite ? 1.0 : -1.0;
       } else {
-        c.effect->lidar(r.beam, table_, c.shape, std::span(moves_).first(n));
-        c.effect->board({r.beam.board_m, Eigen::Vector2d::Zero()}, table_.target, c.shape,
-                        std::span(board_).first(n));
+        c.effect->blur(r.beam, table_, c.shape, blur);
+        if (edge != nullptr) c.effect->edge(*edge, table_, c.shape, outward);
         // What moves the light alone adds to what moves the whole return.
-        spot_.assign(n, Eigen::Vector3d::Zero());
-        c.effect->spot(r.beam, table_, c.shape, spot_);
-        for (std::size_t k = 0; k < n; ++k) moves_[k] += spot_[k];
-        c.effect->blur(r.beam, table_, c.shape, blur_);
-        if (edge != nullptr) c.effect->edge(*edge, table_, c.shape, outward_);
-        for (std::size_t k = 0; k < n; ++k) {
-          shift_[k] = shift_of(moves_[k] + moves.rotation * board_[k], moves);
+        const auto spot = cleared(spot_, n);
+        c.effect->spot(r.beam, table_, c.shape, spot);
+        if (std::any_of(spot.begin(), spot.end(),
+                        [](const auto& move) { return !move.isZero(0.0); })) {
+          for (std::size_t k = 0; k < n; ++k) lit_[k] = shift_of(of(c, moves_)[k] + spot[k], moves);
+          shifts = std::span(lit_).first(n);
         }
       }
-      sink(c, PrintSensitivity::Change{shift_, outward_, blur_, std::span(scalars_).first(n)});
+      sink(c, PrintSensitivity::Change{shifts, outward, blur, log_intensity});
     }
   }
 
  private:
+  // What all rows of a return have in common: how it moves, and the print under it.
+  void follow(const BeamPoint& beam, const PrintSensitivity::Moves& moves) {
+    const ReturnKey key(beam);
+    if (last_ == key) return;
+    last_ = key;
+    std::fill(moves_.begin(), moves_.end(), Eigen::Vector3d::Zero());
+    for (const EffectColumns& c : columns_) {
+      const auto own = of(c, moves_);
+      c.effect->lidar(beam, table_, c.shape, own);
+      const auto board = cleared(board_, own.size());
+      c.effect->board({beam.board_m, Eigen::Vector2d::Zero()}, table_.target, c.shape, board);
+      const auto shifts = of(c, shifts_);
+      for (std::size_t k = 0; k < own.size(); ++k) {
+        if (!board[k].isZero(0.0)) own[k] += moves.rotation * board[k];
+        shifts[k] = c.print_contrast ? Eigen::Vector2d::Zero().eval() : shift_of(own[k], moves);
+      }
+    }
+  }
+  // Room for what an effect's hook writes.
+  template <class T>
+  static std::span<T> cleared(std::vector<T>& room, std::size_t count) {
+    if constexpr (std::is_arithmetic_v<T>) {
+      std::fill_n(room.begin(), count, T{});
+    } else {
+      std::fill_n(room.begin(), count, T::Zero());
+    }
+    return std::span(room).first(count);
+  }
+  // An effect's own of what is kept for all columns.
+  template <class T>
+  std::span<T> of(const EffectColumns& c, std::vector<T>& all) const {
+    return std::span(all).subspan(static_cast<std::size_t>(c.first - columns_.front().first),
+                                  c.parameters.size());
+  }
   static Eigen::Vector2d shift_of(const Eigen::Vector3d& move,
                                   const PrintSensitivity::Moves& moves) {
     Eigen::Vector2d shift = moves.shift_by_move * move;
@@ -168,17 +220,13 @@ class EffectRows {
     return shift;
   }
 
-  void reset(std::size_t n) {
-    for (std::size_t k = 0; k < n; ++k) {
-      moves_[k].setZero();
-      board_[k].setZero();
-      pixels_[k].setZero();
-    }
-  }
-
   const MeasurementTable& table_;
   std::span<const EffectColumns> columns_;
+  // Of all columns, as the last return moves, and which that was.
   std::vector<Eigen::Vector3d> moves_;
+  std::vector<Eigen::Vector2d> shifts_;
+  std::optional<ReturnKey> last_;
+  // Of one effect.
   std::vector<Eigen::Vector3d> board_;
   std::vector<Eigen::Vector2d> pixels_;
   std::vector<double> scalars_;
@@ -186,7 +234,7 @@ class EffectRows {
   std::vector<double> further_;
   std::vector<Eigen::Vector3d> blur_;
   std::vector<Eigen::Vector3d> spot_;
-  std::vector<Eigen::Vector2d> shift_;
+  std::vector<Eigen::Vector2d> lit_;
 };
 
 /// A corner's prediction and derivatives.

@@ -19,36 +19,95 @@ namespace {
 
 constexpr double kPatch_m = 0.2;  // As in the joint solve: about a tag's size.
 
-// A row with few non-zero columns, whitened.
-class SparseRow {
+// Sums over rows of a channel: a part of SceneProducts, of the upper triangles alone.
+struct ChannelSums {
+  Eigen::MatrixXd products;  // Nothing without rows.
+  Eigen::VectorXd fourth_powers;
+  int rows = 0;
+};
+
+// Adds up rows most of whose columns are zero. Some are taken together, so that the products pass
+// through the processor once for all of them.
+class RowSums {
  public:
-  void clear() {
-    index_.clear();
-    value_.clear();
+  // The last columns are those of `effects` effects and the residual.
+  RowSums(int columns, int effects)
+      : first_effect_(columns - 1 - effects), used_(static_cast<std::size_t>(columns)) {
+    values_.setZero(columns, kTogether);
+    weights_.setZero();
   }
+
+  // A value of the row that finish() ends.
   void set(int column, double value) {
     if (value == 0.0) return;
-    index_.push_back(column);
-    value_.push_back(value);
+    used_[static_cast<std::size_t>(column)] = 1;
+    values_(column, waiting_) = value;
   }
-  // Adds the outer product to the upper triangle; columns were set in growing order.
-  void add_to(Eigen::MatrixXd& products, double weight) const {
-    for (std::size_t a = 0; a < index_.size(); ++a) {
-      const double va = weight * value_[a];
-      for (std::size_t b = 0; b <= a; ++b) products(index_[b], index_[a]) += va * value_[b];
-    }
+  void finish(double weight) {
+    weights_(waiting_++) = weight;
+    ++sums_.rows;
+    if (waiting_ == kTogether) add_waiting();
   }
-  void add_fourth_powers(Eigen::VectorXd& sums, int first, double weight) const {
-    for (std::size_t a = 0; a < index_.size(); ++a) {
-      if (index_[a] < first || index_[a] >= first + sums.size()) continue;
-      const double square = weight * value_[a] * value_[a];
-      sums(index_[a] - first) += square * square;
-    }
+  ChannelSums sums() {
+    if (waiting_ > 0) add_waiting();
+    return std::move(sums_);
   }
 
  private:
-  std::vector<int> index_;
-  std::vector<double> value_;
+  static constexpr int kTogether = 8;
+  struct Run {
+    Eigen::Index first, count;
+  };
+
+  // Columns that are not zero in all rows that wait, and few others.
+  void find_runs() {
+    constexpr Eigen::Index kGap = 4;  // Zeros that cost less than another run.
+    runs_.clear();
+    for (Eigen::Index c = 0; c < values_.rows(); ++c) {
+      if (used_[static_cast<std::size_t>(c)] == 0) continue;
+      if (runs_.empty() || c > runs_.back().first + runs_.back().count + kGap)
+        runs_.push_back({c, 0});
+      runs_.back().count = c + 1 - runs_.back().first;
+    }
+  }
+
+  void add_waiting() {
+    if (sums_.products.size() == 0) {
+      sums_.products.setZero(values_.rows(), values_.rows());
+      sums_.fourth_powers.setZero(values_.rows() - 1 - first_effect_);
+    }
+    find_runs();
+    for (const Run& run : runs_) {
+      for (Eigen::Index a = run.first; a < run.first + run.count; ++a) add_column(a);
+    }
+    for (const Run& run : runs_) values_.middleRows(run.first, run.count).setZero();
+    std::fill(used_.begin(), used_.end(), 0);
+    weights_.setZero();
+    waiting_ = 0;
+  }
+
+  void add_column(Eigen::Index a) {
+    const Together whitened = weights_.cwiseProduct(values_.row(a).transpose());
+    for (const Run& run : runs_) {
+      const Eigen::Index count = std::min(run.count, a + 1 - run.first);
+      if (count <= 0) break;
+      sums_.products.col(a).segment(run.first, count) +=
+          values_.middleRows(run.first, count).lazyProduct(whitened);
+    }
+    const Eigen::Index effect = a - first_effect_;
+    if (effect >= 0 && effect < sums_.fourth_powers.size())
+      sums_.fourth_powers(effect) +=
+          whitened.cwiseProduct(values_.row(a).transpose()).squaredNorm();
+  }
+
+  using Together = Eigen::Matrix<double, kTogether, 1>;
+  Eigen::Index first_effect_;
+  std::vector<char> used_;
+  Eigen::Matrix<double, Eigen::Dynamic, kTogether> values_;  // Rows that wait are its columns.
+  Together weights_;
+  int waiting_ = 0;
+  std::vector<Run> runs_;
+  ChannelSums sums_;
 };
 
 int index_in(const std::vector<int>& list, int value) {
@@ -96,22 +155,56 @@ std::span<const Row> rows_of(const std::vector<Row>& rows, int scene) {
   return {first, last};
 }
 
-std::size_t row_count(const MeasurementTable& table, std::size_t scene, std::size_t channel) {
-  const auto at = static_cast<int>(scene);
-  switch (kAllChannels[channel]) {
-    case Channel::kRange:
-      return rows_of(table.range, at).size();
-    case Channel::kBoundary:
-      return rows_of(table.boundary, at).size();
-    case Channel::kCorner:
-      return rows_of(table.corner, at).size();
-    case Channel::kIntensity:
-      break;
+// Rows of a scene, or a part of them.
+struct PartRows {
+  std::span<const RangeRow> range;
+  std::span<const BoundaryRow> boundary;
+  std::span<const IntensityRow> intensity;
+  std::span<const CornerRow> corner;
+
+  [[nodiscard]] std::size_t of_returns() const {
+    return range.size() + boundary.size() + intensity.size();
   }
-  return rows_of(table.intensity, at).size();
+  [[nodiscard]] std::size_t size() const { return of_returns() + corner.size(); }
+  // The return that comes first.
+  [[nodiscard]] ReturnKey next_return() const {
+    std::optional<ReturnKey> out;
+    const auto ask = [&out](const auto& rows) {
+      if (rows.empty()) return;
+      const ReturnKey key(rows.front().beam);
+      if (!out || key < *out) out = key;
+    };
+    ask(range);
+    ask(boundary);
+    ask(intensity);
+    return *out;
+  }
+  // Corners, and the returns before one: these are the others from then on.
+  PartRows take_before(const ReturnKey& end) {
+    const auto take = [&end](auto& rows) {
+      const auto at = std::partition_point(
+          rows.begin(), rows.end(), [&](const auto& row) { return ReturnKey(row.beam) < end; });
+      const auto out = rows.first(static_cast<std::size_t>(at - rows.begin()));
+      rows = rows.subspan(out.size());
+      return out;
+    };
+    return {take(range), take(boundary), take(intensity), std::exchange(corner, {})};
+  }
+};
+
+PartRows rows_of(const MeasurementTable& table, int scene, const ChannelMask& channels) {
+  const auto take = [&](Channel channel, const auto& rows, auto& to) {
+    if (channels[static_cast<std::size_t>(channel)]) to = rows_of(rows, scene);
+  };
+  PartRows out;
+  take(Channel::kRange, table.range, out.range);
+  take(Channel::kBoundary, table.boundary, out.boundary);
+  take(Channel::kIntensity, table.intensity, out.intensity);
+  take(Channel::kCorner, table.corner, out.corner);
+  return out;
 }
 
-// Accumulates one channel of one scene.
+// Accumulates rows of one scene.
 class SceneAccumulator {
  public:
   SceneAccumulator(const MeasurementTable& table, const ModelState& state,
@@ -132,89 +225,69 @@ class SceneAccumulator {
         // Others than those in use may let black grow.
         print_(table, state, scene, in_use, columns.list().size() > in_use.size()),
         log_contrast_(log_contrast(state.levels[scene])),
-        layout_(layout) {
-    extrinsic_ = layout_.size();
-    effects_ = extrinsic_ + 6;
-    residual_ = effects_ + columns.columns();
-    products_.setZero(residual_ + 1, residual_ + 1);
-    fourth_powers_.setZero(columns.columns());
+        layout_(layout),
+        extrinsic_(layout.size()),
+        effects_(extrinsic_ + 6),
+        residual_(effects_ + columns.columns()) {
+    for (std::size_t c = 0; c < kChannels; ++c)
+      sums_.emplace_back(residual_ + 1, columns.columns());
   }
 
-  // Sums the rows of one channel into its place.
-  void sum_into(SceneProducts& out, Channel channel) {
-    switch (channel) {
-      case Channel::kRange:
-        for (const RangeRow& row : rows_of(table_.range, scene_)) range(row);
-        break;
-      case Channel::kBoundary:
-        for (const BoundaryRow& row : rows_of(table_.boundary, scene_)) {
-          const Print side = row.beam.darkness < 0.5 ? Print::kWhite : Print::kBlack;
-          reading({row.beam, side, 0.0, row.sigma_m, row.reading}, &row);
-        }
-        break;
-      case Channel::kCorner:
-        for (const CornerRow& row : rows_of(table_.corner, scene_)) corner(row);
-        break;
-      case Channel::kIntensity:
-        for (const IntensityRow& row : rows_of(table_.intensity, scene_)) reading(row, nullptr);
-        break;
+  // Sums the rows into the upper triangles. Those of one return follow each other: what its beam
+  // says is asked once.
+  std::array<ChannelSums, kChannels> sums_of(PartRows rows) {
+    for (const CornerRow& row : rows.corner) corner(row);
+    while (rows.of_returns() > 0) {
+      const ReturnKey next = rows.next_return();
+      const auto visit = [&next](auto& left, const auto& add) {
+        for (; !left.empty() && !(next < ReturnKey(left.front().beam)); left = left.subspan(1))
+          add(left.front());
+      };
+      visit(rows.range, [&](const RangeRow& row) { range(row); });
+      visit(rows.boundary, [&](const BoundaryRow& row) {
+        const Print side = row.beam.darkness < 0.5 ? Print::kWhite : Print::kBlack;
+        reading({row.beam, side, 0.0, row.sigma_m, row.reading}, &row);
+      });
+      visit(rows.intensity, [&](const IntensityRow& row) { reading(row, nullptr); });
     }
-    products_.triangularView<Eigen::StrictlyLower>() = products_.transpose();
-    if (channel != Channel::kCorner) fill_what_follows_from_the_pose();
-    const auto at = static_cast<std::size_t>(channel);
-    out.products[at] = std::move(products_);
-    out.fourth_powers[at] = std::move(fourth_powers_);
-    out.rows[at] = rows_;
+    std::array<ChannelSums, kChannels> out;
+    for (std::size_t c = 0; c < kChannels; ++c) out[c] = sums_[c].sums();
+    return out;
   }
 
  private:
   void set_pose(const Vector6d& by_pose) {
-    for (int k = 0; k < 6; ++k) row_.set(k, by_pose(k));
-  }
-  // What the LiDAR measures depends on the extrinsic and on the board's motion through the board's
-  // pose in its frame alone: these columns are the pose's, transformed, and need no sums of their
-  // own.
-  void fill_what_follows_from_the_pose() {
-    Eigen::MatrixXd& m = products_;
-    const int board = layout_.board_column();
-    const Matrix6d motion = print_.board_motion_by_pose();
-    m.middleRows<6>(extrinsic_) = -m.topRows<6>();
-    m.middleRows<6>(board) = motion * m.topRows<6>();
-    m.middleCols<6>(extrinsic_) = -m.leftCols<6>();
-    m.middleCols<6>(board) = m.leftCols<6>() * motion.transpose();
+    for (int k = 0; k < 6; ++k) row_->set(k, by_pose(k));
   }
   void finish(double residual, double sigma) {
-    row_.set(residual_, residual);
-    const double weight = 1.0 / (sigma * sigma);
-    row_.add_to(products_, weight);
-    row_.add_fourth_powers(fourth_powers_, effects_, weight);
-    ++rows_;
+    row_->set(residual_, residual);
+    row_->finish(1.0 / (sigma * sigma));
   }
 
   void range(const RangeRow& r) {
     const auto row = print_.range(r, seen(r, table_.range, &PrintMemory::range));
     if (!row) return;
-    begin(*row);
+    begin(Channel::kRange, *row);
     BoardPolynomials z{};
     board_polynomials(on_unit_square(r.beam.board_m, table_.target), z);
     for (int k = 0; k < LocalLayout::kRangeTerms; ++k)
-      row_.set(LocalLayout::kFixed + k, z[static_cast<std::size_t>(3 + k)]);
+      row_->set(LocalLayout::kFixed + k, z[static_cast<std::size_t>(3 + k)]);
     const int line = line_of(r.beam);
-    if (line >= 0) row_.set(layout_.line_column() + line, 1.0);
+    if (line >= 0) row_->set(layout_.line_column() + line, 1.0);
     const auto edge = edge_beside(r.beam, log_contrast_);
     const BoundaryRow* const beside = edge ? &*edge : nullptr;
     const PrintSensitivity::Moves moves(geometry_, rotation_, r.beam.direction);
     for (std::size_t k = 0; k < parameters_told(); ++k) {
       const UnitChange& by = print_.by_parameters()[k];
-      row_.set(effects_ + static_cast<int>(k), by.range_m + row->range_by_shift.dot(by.shift_m) +
-                                                   row->range_by_growth * by.growth_m);
+      row_->set(effects_ + static_cast<int>(k), by.range_m + row->range_by_shift.dot(by.shift_m) +
+                                                    row->range_by_growth * by.growth_m);
     }
     candidate_rows_.range(r, geometry_.range_row(r.beam.direction), moves, beside,
                           [&](const EffectColumns& c, const EffectRows::RangeChange& by) {
                             for (std::size_t k = 0; k < by.range_m.size(); ++k) {
-                              row_.set(effects_ + c.first + static_cast<int>(k),
-                                       by.range_m[k] + row->range_by_shift.dot(by.shift_m[k]) +
-                                           row->range_by_growth * by.growth_m[k]);
+                              row_->set(effects_ + c.first + static_cast<int>(k),
+                                        by.range_m[k] + row->range_by_shift.dot(by.shift_m[k]) +
+                                            row->range_by_growth * by.growth_m[k]);
                             }
                           });
     finish(row->residual, r.sigma_m);
@@ -223,11 +296,12 @@ class SceneAccumulator {
   [[nodiscard]] std::size_t parameters_told() const {
     return told_ > 0 ? print_.by_parameters().size() : 0;
   }
-  void begin(const PrintRow& row) {
-    row_.clear();
+  void begin(Channel channel) { row_ = &sums_[static_cast<std::size_t>(channel)]; }
+  void begin(Channel channel, const PrintRow& row) {
+    begin(channel);
     set_pose(row.by_board_pose);
     for (int k = 0; k < LocalLayout::kLevels; ++k)
-      row_.set(LocalLayout::kPose + k, row.by_levels(k));
+      row_->set(LocalLayout::kPose + k, row.by_levels(k));
   }
   [[nodiscard]] int line_of(const BeamPoint& beam) const {
     return layout_.lines > 0 ? index_in(table_.lines, beam.line) : -1;
@@ -241,24 +315,24 @@ class SceneAccumulator {
                          ? print_.edge(*edge, seen(*edge, table_.boundary, &PrintMemory::boundary))
                          : print_.intensity(r, seen(r, table_.intensity, &PrintMemory::intensity));
     if (!row) return;
-    begin(*row);
+    begin(edge != nullptr ? Channel::kBoundary : Channel::kIntensity, *row);
     const int patch = layout_.patch_column() + 2 * patch_of(r.beam.board_m);
-    row_.set(patch, row->print.by_shift(0));
-    row_.set(patch + 1, row->print.by_shift(1));
+    row_->set(patch, row->print.by_shift(0));
+    row_->set(patch + 1, row->print.by_shift(1));
     const int line = line_of(r.beam);
     if (line >= 0)
-      row_.set(layout_.line_column() + layout_.lines + line, row->print.by_log_intensity);
+      row_->set(layout_.line_column() + layout_.lines + line, row->print.by_log_intensity);
     const auto trace = edge == nullptr ? edge_beside(r.beam, log_contrast_) : std::nullopt;
     if (trace) edge = &*trace;
     const PrintSensitivity::Moves moves(geometry_, rotation_, r.beam.direction);
     for (std::size_t k = 0; k < parameters_told(); ++k) {
       const UnitChange& by = print_.by_parameters()[k];
-      row_.set(effects_ + static_cast<int>(k), row->print.of(by));
+      row_->set(effects_ + static_cast<int>(k), row->print.of(by));
     }
     candidate_rows_.reading(
         r, edge, moves, [&](const EffectColumns& c, const PrintSensitivity::Change& by) {
           for (std::size_t k = 0; k < by.shift_m.size(); ++k)
-            row_.set(effects_ + c.first + static_cast<int>(k), row->print.of(by, k));
+            row_->set(effects_ + c.first + static_cast<int>(k), row->print.of(by, k));
         });
     finish(row->residual, r.sigma);
   }
@@ -280,13 +354,13 @@ class SceneAccumulator {
             ? index_in(table_.scenes[static_cast<std::size_t>(scene_)].features, r.feature)
             : patch_of(r.board_m);
     for (int axis = 0; axis < 2; ++axis) {
-      row_.clear();
+      begin(Channel::kCorner);
       set_pose(p->by_pose.row(axis).transpose());
-      row_.set(layout_.corner_column() + 2 * group + axis, 1.0);
+      row_->set(layout_.corner_column() + 2 * group + axis, 1.0);
       corner_rows_.corner(r, p->normalized, p->by_board_move,
                           [&](const EffectColumns& c, std::span<const Eigen::Vector2d> by) {
                             for (std::size_t k = 0; k < by.size(); ++k)
-                              row_.set(effects_ + c.first + static_cast<int>(k), by[k](axis));
+                              row_->set(effects_ + c.first + static_cast<int>(k), by[k](axis));
                           });
       finish(residual(axis), r.sigma_px);
     }
@@ -315,14 +389,83 @@ class SceneAccumulator {
   PrintRows print_;
   double log_contrast_;
   const LocalLayout& layout_;
-  Eigen::MatrixXd products_;
-  Eigen::VectorXd fourth_powers_;
-  int rows_ = 0;
-  SparseRow row_;
-  int extrinsic_ = 0;
-  int effects_ = 0;
-  int residual_ = 0;
+  int extrinsic_;  // First columns.
+  int effects_;
+  int residual_;
+  std::vector<RowSums> sums_;  // By channel.
+  RowSums* row_ = nullptr;     // That of the row at hand.
 };
+
+// What one thread does at a time.
+struct Task {
+  std::size_t scene;
+  PartRows rows;
+  std::array<ChannelSums, kChannels> sums = {};
+};
+
+// Parts of a scene's rows that are long beside what adding them up costs.
+void add_tasks(std::size_t scene, PartRows rows, std::vector<Task>& tasks) {
+  constexpr std::size_t kRows = 16384;
+  const std::size_t parts = rows.range.empty() ? 1 : 1 + rows.size() / kRows;
+  const std::span<const RangeRow> range = rows.range;
+  for (std::size_t k = 1; k < parts; ++k)
+    tasks.push_back({scene, rows.take_before(ReturnKey(range[k * range.size() / parts].beam))});
+  tasks.push_back({scene, rows});
+}
+
+// Turns a derivative by the board's pose into that by the board's motion between camera and LiDAR
+// about its middle, board axes: shift (2), along the normal, tilt (2), spin.
+Matrix6d board_motion_by_pose(const SceneGeometry& geometry, const Eigen::Vector2d& center_m) {
+  Matrix6d by_camera;
+  for (int k = 0; k < 6; ++k)
+    by_camera.col(k) = geometry.by_camera_pose(Vector6d::Unit(static_cast<Eigen::Index>(k)));
+  return board_motion(geometry.lidar_from_board(), center_m).transpose() * by_camera.inverse();
+}
+
+// What the LiDAR measures depends on the extrinsic and on the board's motion through the board's
+// pose in its frame alone: these columns are the pose's, transformed, and need no sums of their
+// own.
+void fill_what_follows_from_the_pose(const LocalLayout& layout, const Matrix6d& motion,
+                                     Eigen::MatrixXd& products) {
+  const int board = layout.board_column();
+  const int extrinsic = layout.size();
+  products.middleRows<6>(extrinsic) = -products.topRows<6>();
+  products.middleRows<6>(board) = motion * products.topRows<6>();
+  products.middleCols<6>(extrinsic) = -products.leftCols<6>();
+  products.middleCols<6>(board) = products.leftCols<6>() * motion.transpose();
+}
+
+void add(std::array<ChannelSums, kChannels>&& parts, SceneProducts& out) {
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    ChannelSums& part = parts[c];
+    if (part.rows == 0) continue;
+    if (out.rows[c] == 0) {
+      out.products[c] = std::move(part.products);
+      out.fourth_powers[c] = std::move(part.fourth_powers);
+    } else {
+      out.products[c] += part.products;
+      out.fourth_powers[c] += part.fourth_powers;
+    }
+    out.rows[c] += part.rows;
+  }
+}
+
+// From the upper triangles of the sums over rows.
+void complete(const SceneGeometry& geometry, const Eigen::Vector2d& center_m, int effects,
+              SceneProducts& out) {
+  const Matrix6d motion = board_motion_by_pose(geometry, center_m);
+  for (const Channel channel : kAllChannels) {
+    const auto at = static_cast<std::size_t>(channel);
+    Eigen::MatrixXd& products = out.products[at];
+    if (out.rows[at] == 0) {
+      products.setZero(out.layout.size() + 6 + effects + 1, out.layout.size() + 6 + effects + 1);
+      out.fourth_powers[at].setZero(effects);
+      continue;
+    }
+    products.triangularView<Eigen::StrictlyLower>() = products.transpose();
+    if (channel != Channel::kCorner) fill_what_follows_from_the_pose(out.layout, motion, products);
+  }
+}
 
 }  // namespace
 
@@ -407,32 +550,27 @@ Linearization linearize(const MeasurementTable& table, const ModelState& state,
   for (std::size_t s = 0; s < out.scenes.size(); ++s) {
     out.scenes[s].layout = layout_of(table, s);
     out.scenes[s].inflation = table.scenes[s].inflation;
-    const int size = out.scenes[s].layout.size() + 6 + columns.columns() + 1;
-    for (const Channel channel : kAllChannels) {
-      const auto at = static_cast<std::size_t>(channel);
-      if (channels[at]) continue;
-      out.scenes[s].products[at].setZero(size, size);
-      out.scenes[s].fourth_powers[at].setZero(columns.columns());
-    }
   }
-  // Scene by scene and channel by channel, the longest first, so that all threads end together.
-  struct Task {
-    std::size_t scene, channel, rows;
-  };
   std::vector<Task> tasks;
-  for (std::size_t s = 0; s < table.scenes.size(); ++s) {
-    for (std::size_t channel = 0; channel < kChannels; ++channel) {
-      if (channels[channel]) tasks.push_back({s, channel, row_count(table, s, channel)});
-    }
-  }
-  std::stable_sort(tasks.begin(), tasks.end(),
-                   [](const Task& a, const Task& b) { return a.rows > b.rows; });
-  parallel_for(tasks.size(), context.thread_count(), [&](std::size_t task) {
-    const auto [s, channel, rows] = tasks[task];
+  for (std::size_t s = 0; s < out.scenes.size(); ++s)
+    add_tasks(s, rows_of(table, static_cast<int>(s), channels), tasks);
+  // The longest first, so that all threads end together.
+  std::vector<std::size_t> order(tasks.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return tasks[a].rows.size() > tasks[b].rows.size();
+  });
+  parallel_for(tasks.size(), context.thread_count(), [&](std::size_t k) {
+    Task& task = tasks[order[k]];
     if (context.stopped()) return;
-    SceneProducts& scene = out.scenes[s];
-    SceneAccumulator(table, state, in_use, columns, scene.layout, s, memory)
-        .sum_into(scene, kAllChannels[channel]);
+    task.sums = SceneAccumulator(table, state, in_use, columns, out.scenes[task.scene].layout,
+                                 task.scene, memory)
+                    .sums_of(task.rows);
+  });
+  for (Task& task : tasks) add(std::move(task.sums), out.scenes[task.scene]);
+  parallel_for(out.scenes.size(), context.thread_count(), [&](std::size_t s) {
+    complete(SceneGeometry(state.camera_from_lidar, state.camera_from_board[s]),
+             table.print->outline().center_m(), columns.columns(), out.scenes[s]);
   });
   if (context.stopped()) out.scenes.assign(table.scenes.size(), {});
   return out;

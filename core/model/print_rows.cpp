@@ -21,22 +21,32 @@ PrintRows::PrintRows(const MeasurementTable& table, const ModelState& state, std
       rotation_(geometry_.lidar_from_board().rotation.toRotationMatrix()),
       predictor_(*table.print, geometry_.lidar_from_board(), state.levels[scene], state.beam),
       log_contrast_(log_contrast(state.levels[scene])),
-      motion_(board_motion(geometry_.lidar_from_board(), table.print->outline().center_m())),
       growth_(growth) {}
 
 void PrintRows::set_pose(const Vector6d& by_lidar_pose, PrintRow& out) const {
   out.by_board_pose = geometry_.by_camera_pose(by_lidar_pose);
 }
 
-Matrix6d PrintRows::board_motion_by_pose() const {
-  Matrix6d by_camera;
-  for (int k = 0; k < 6; ++k)
-    by_camera.col(k) = geometry_.by_camera_pose(Vector6d::Unit(static_cast<Eigen::Index>(k)));
-  return motion_.transpose() * by_camera.inverse();
+// A return's range and its intensity mostly ask for the same.
+const std::optional<ReturnPrediction>& PrintRows::predicted(const BeamPoint& beam,
+                                                            const PrintChange& change,
+                                                            const LocalPrint& known,
+                                                            LocalPrint* seen) {
+  const ReturnKey key(beam);
+  const bool same = last_ && last_->key == key && last_->change.shift_m == change.shift_m &&
+                    last_->change.growth_m == change.growth_m;
+  if (!same) {
+    last_.emplace(Predicted{key, change, seen != nullptr ? *seen : known, {}});
+    last_->prediction = predictor_.predict(beam.direction, change, &last_->seen, &last_->seen);
+  }
+  if (seen != nullptr) *seen = last_->seen;
+  return last_->prediction;
 }
 
 std::optional<PrintRow> PrintRows::range(const RangeRow& row, LocalPrint* seen) {
   PrintChange change;
+  // Not of a range, but its intensity asks for it.
+  if (row.beam.edge && growth_) change.growth_m = 0.0;
   double further = 0.0;
   // A trace of black in a white spot hardly pulls a range; light in a black one does.
   const bool pulled = row.beam.edge && !(row.beam.edge->plain && row.beam.edge->distance_m > 0.0);
@@ -54,8 +64,7 @@ std::optional<PrintRow> PrintRows::range(const RangeRow& row, LocalPrint* seen) 
                   if (growth != 0.0) add_growth(growth, change);
                 }
               });
-  const auto p =
-      predictor_.predict(row.beam.direction, change, seen != nullptr ? seen : &row.seen, seen);
+  const auto& p = predicted(row.beam, change, row.seen, seen);
   if (!p) return std::nullopt;
   PrintRow out;
   out.residual = row.measured_m - p->range_m - further;
@@ -98,8 +107,7 @@ std::optional<PrintRow> PrintRows::reading(const IntensityRow& row, const Bounda
       log += v * by.log_intensity[k];
     }
   });
-  const auto p =
-      predictor_.predict(direction, change, seen != nullptr ? seen : &row.reading.seen, seen);
+  const auto& p = predicted(row.beam, change, row.reading.seen, seen);
   if (!p) return std::nullopt;
   PrintRow out;
   const double unit = row.reading.unit;

@@ -46,13 +46,14 @@ class PrintRows {
   /// What one unit of each parameter of the effects in use does to the row that was predicted last.
   [[nodiscard]] const std::vector<UnitChange>& by_parameters() const { return changes_; }
 
-  /// Turns a derivative by the board's pose into that by the board's motion between camera and
-  /// LiDAR about its middle, board axes: shift (2), along the normal, tilt (2), spin.
-  [[nodiscard]] Matrix6d board_motion_by_pose() const;
-
  private:
   std::optional<PrintRow> reading(const IntensityRow& row, const BoundaryRow* edge,
                                   LocalPrint* seen);
+  // `known`: the print as the table's row has it.
+  [[nodiscard]] const std::optional<ReturnPrediction>& predicted(const BeamPoint& beam,
+                                                                 const PrintChange& change,
+                                                                 const LocalPrint& known,
+                                                                 LocalPrint* seen);
   [[nodiscard]] double value(const EffectColumns& c, std::size_t k) const {
     const auto at = static_cast<std::size_t>(&c - columns_.list().data());
     return in_use_[at].values(static_cast<Eigen::Index>(k));
@@ -66,9 +67,16 @@ class PrintRows {
   Eigen::Matrix3d rotation_;
   BoardPredictor predictor_;
   double log_contrast_;
-  Matrix6d motion_;  // Left perturbation of T_lidar_board by the board's motion.
   bool growth_;
   std::vector<UnitChange> changes_;
+  // What was predicted last.
+  struct Predicted {
+    ReturnKey key;
+    PrintChange change;
+    LocalPrint seen;
+    std::optional<ReturnPrediction> prediction;
+  };
+  std::optional<Predicted> last_;
 };
 
 }  // namespace lvcalib

@@ -156,6 +156,40 @@ TEST(Linearize, CountsRowsAndDoesNotDependOnThreads) {
   }
 }
 
+// What a return's range and its intensity share is asked once where both are summed.
+TEST(Linearize, RowsOfOneReturnSayWhatTheySayAlone) {
+  test::TableRecipe recipe;
+  recipe.scenes = 2;
+  recipe.range_rows = 9000;
+  const auto made = test::synthetic_table(recipe);
+  std::vector<EffectInUse> in_use;
+  EffectColumnsList columns;
+  // The second moves the light beside the return, the third lets black grow.
+  for (const char* id : {"range_scale", "detector_lag", "boundary_bias"}) {
+    const EffectPtr effect = find_effect(id);
+    in_use.push_back({effect, 0.0, Eigen::VectorXd::Zero(1)});
+    in_use.back().values(0) = 0.1 * effect->parameters(made.table).front().material;
+  }
+  for (const EffectInUse& use : in_use) columns.add(use.effect, use.shape, made.table);
+  for (const EffectPtr& effect : effect_catalogue())
+    columns.add(effect, effect->shapes(made.table).front(), made.table);
+  const Linearization together = linearize(made.table, made.truth, in_use, columns, {});
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    ChannelMask one{};
+    one[c] = true;
+    const Linearization alone = linearize(made.table, made.truth, in_use, columns, {}, one);
+    for (std::size_t s = 0; s < 2; ++s) {
+      EXPECT_GT(alone.scenes[s].rows[c], 0);
+      EXPECT_EQ(together.scenes[s].rows[c], alone.scenes[s].rows[c]);
+      const Eigen::MatrixXd& wanted = alone.scenes[s].products[c];
+      const Eigen::VectorXd size = wanted.diagonal().cwiseSqrt().cwiseMax(1e-12);
+      const Eigen::MatrixXd off = (together.scenes[s].products[c] - wanted).cwiseAbs();
+      // Rounding: in what follows from the pose most of it cancels.
+      EXPECT_LT(off.cwiseQuotient(size * size.transpose()).maxCoeff(), 1e-6) << c;
+    }
+  }
+}
+
 TEST(Linearize, TellsOnHowManyRowsAnEffectActs) {
   test::TableRecipe recipe;
   recipe.scenes = 2;
