@@ -5181,6 +5181,10 @@ were saved. Take them up again?</source>
         <source>the board is not found in the cloud: no return lies on it where the other scenes put it</source>
         <translation>点云中找不到标定板：在其他场景给出的位置上没有任何回波</translation>
     </message>
+    <message>
+        <source>one usable scene; a target without circles needs three or more, differently turned</source>
+        <translation>可用场景 1 个；没有圆的标定板需要三个或更多朝向不同的场景</translation>
+    </message>
 </context>
 <context>
     <name>CoreWords</name>
