@@ -46,6 +46,7 @@
 #include "views/cloud_view.h"
 #include "views/image_view.h"
 #include "widgets/workbench/main_window_fixture.h"
+#include "workbench/page_stack.h"
 
 namespace lvcalib::main_window_test {
 namespace {
@@ -406,6 +407,8 @@ TEST_F(MainWindowTest, WhatIsBrushedOnTheModelPageIsLeftOut) {
   const CornerObservation& corner = scene.view->corners[5];
   // Its range is another than measured: the beam tells which return it is.
   Q_EMIT page->samplesSelected({{"B", {{1.03 * point.cast<double>()}, {corner.pixel}}}});
+  // Once more the calibration, as when the model's budget is known.
+  window_->findChild<widgets::PageStack*>()->set_result(workspace().result());
   Q_EMIT page->excludeWanted();
   const auto edits = [&](const char* name) {
     return decision_of(workspace().decisions(), name).edits;
