@@ -7880,26 +7880,6 @@ F5 全部运行，Esc 取消，Ctrl+Z 撤销，Ctrl+1、Ctrl+2 …… 切换页�
 </translation>
     </message>
     <message>
-        <source># Model
-Compare, locate, learn, add, watch: what the model misses, and what that does to the pose.
-
-- **Bars on top**: the error beyond the noise after each step, red where it is unexplained, green where an effect took it away, grey where chance alone may leave it. A click goes to a step; *Compare steps…* sets two of them side by side. Where the truth of a simulation is known, the distance to it stands beside the bars.
-- **Where it fails**, in the middle: residuals of a channel against whatever they may depend on, as a scatter with binned means or as maps over the image, the board and the directions. *Before* draws what was there before the last step. *Brush* selects measurements, which are then marked on the Scene page.
-- **What is missing**, on the right: effects with the evidence of the scenes held out. *Add* takes one into the model, *Find all* goes on until nothing is missing. *Cannot be seen* lists effects that these scenes would not show, and how far they could still move the pose.
-- **The model**, on the left: its effects with their values. Untick one to take it out, hold a value to fix it, *Add…* enters an effect as a formula or a curve. *What if* draws an effect over the residuals before it is in the model.
-- &quot;One of several&quot; means that these scenes cannot tell effects apart; the text names the scene that would.
-</source>
-        <translation># 模型
-比较、定位、了解、添加、观察：模型缺少什么，以及这对位姿有何影响。
-
-- **上方的柱形**：每一步之后超出噪声的误差；红色为未解释的部分，绿色为已由效应解释的部分，灰色为仅由偶然误差就可能留下的部分。单击可转到某一步；“比较步骤…” 将两步并列。若仿真真值已知，与真值的距离显示在柱形旁边。
-- **失效之处**（中间）：某一通道的残差与其可能依赖的量的关系，以散点和分箱均值，或以图像、标定板和方向上的分布图表示。“之前” 绘出上一步之前的情况。“刷选” 选择测量值，它们随后在“场景”页中标出。
-- **缺失的内容**（右侧）：各效应及留出场景给出的证据。“添加” 将其加入模型，“全部查找” 持续到不再缺失为止。“看不到的” 列出这些场景无法显示的效应，以及它们还能使位姿移动多少。
-- **模型**（左侧）：其效应及数值。取消勾选即移除，固定数值即不再拟合，“添加…” 以公式或曲线输入效应。“假如” 在效应加入模型之前将其绘在残差上。
-- “若干之一”表示这些场景无法区分几个效应；文字会指出能够区分的场景。
-</translation>
-    </message>
-    <message>
         <source># Refinement
 How each circle&apos;s centre was found, bin by bin: marks where the intensity crosses its middle level, and the fitted wave. A centred circle has a flat line at zero. A click enlarges a circle and says why bins were refused. Circles that the solve left out are struck through.
 </source>
@@ -7939,6 +7919,26 @@ The intrinsics as given, as estimated with the extrinsic and from images alone, 
 </source>
         <translation># 工具
 *规划场景*说明下一步把标定板放在哪里，以及届时外参有多可靠。*文件 › 监视*在场景出现时即行采用，并以大字显示下一个位姿。*用新数据检验*把位姿叠加到有无标定板的画面上，说明激光雷达与图像的边缘是否吻合；也可在那里手动寻找粗略位姿。*比较*把两个结果并列，*校正点云*从点云中去除模型的效应，*标定相机*由图像文件夹生成 camera.yaml；标定板的打印和描述也在同一菜单中。
+</translation>
+    </message>
+    <message>
+        <source># Model
+Compare, locate, learn, add, watch: what the model misses, and what that does to the pose.
+
+- **Bars on top**: the error beyond the noise after each step, red where it is unexplained, green where an effect took it away, grey where chance alone may leave it. A click goes to a step; *Compare steps…* sets two of them side by side. Where the truth of a simulation is known, the distance to it stands beside the bars.
+- **Where it fails**, in the middle: residuals of a channel against whatever they may depend on, as a scatter with binned means or as maps over the image, the board and the directions. *Before* draws what was there before the last step. *Brush* selects measurements, which are then marked on the Scene page too; *Exclude these* leaves them out of all scenes.
+- **What is missing**, on the right: effects with the evidence of the scenes held out. *Add* takes one into the model, *Find all* goes on until nothing is missing. *Cannot be seen* lists effects that these scenes would not show, and how far they could still move the pose.
+- **The model**, on the left: its effects with their values. Untick one to take it out, hold a value to fix it, *Add…* enters an effect as a formula or a curve. *What if* draws an effect over the residuals before it is in the model.
+- &quot;One of several&quot; means that these scenes cannot tell effects apart; the text names the scene that would.
+</source>
+        <translation># 模型
+比较、定位、了解、添加、观察：模型缺少什么，以及这对位姿有何影响。
+
+- **上方的柱形**：每一步之后超出噪声的误差；红色为未解释的部分，绿色为已由效应解释的部分，灰色为仅由偶然误差就可能留下的部分。单击可转到某一步；“比较步骤…” 将两步并列。若仿真真值已知，与真值的距离显示在柱形旁边。
+- **失效之处**（中间）：某一通道的残差与其可能依赖的量的关系，以散点和分箱均值，或以图像、标定板和方向上的分布图表示。“之前” 绘出上一步之前的情况。“刷选” 选择测量值，它们随后也在“场景”页中标出；“排除所选” 在所有场景中不再采用它们。
+- **缺失的内容**（右侧）：各效应及留出场景给出的证据。“添加” 将其加入模型，“全部查找” 持续到不再缺失为止。“看不到的” 列出这些场景无法显示的效应，以及它们还能使位姿移动多少。
+- **模型**（左侧）：其效应及数值。取消勾选即移除，固定数值即不再拟合，“添加…” 以公式或曲线输入效应。“假如” 在效应加入模型之前将其绘在残差上。
+- “若干之一”表示这些场景无法区分几个效应；文字会指出能够区分的场景。
 </translation>
     </message>
 </context>
@@ -11228,6 +11228,14 @@ The intrinsics as given, as estimated with the extrinsic and from images alone, 
     <message>
         <source>Board intensity</source>
         <translation>板面强度</translation>
+    </message>
+    <message>
+        <source>Exclude these</source>
+        <translation>排除所选</translation>
+    </message>
+    <message>
+        <source>Leave out what is selected, in every scene, and solve again; of corners their tags</source>
+        <translation>在所有场景中排除所选内容并重新求解；对于角点，排除其所在的标签</translation>
     </message>
 </context>
 <context>

@@ -293,15 +293,19 @@ void MainWindow::connect_pages() {
     edits.kept_patches.clear();
     workspace_->set_edits({{scene, edits}});
   });
-  connect(pages_, &PageStack::points_excluded, this, [this](const PointsOfScenes& points) {
-    std::map<QString, SceneEdits> edits;
-    for (const auto& [scene, out] : points) {
-      SceneEdits& edit = edits[scene];
-      edit = decision_of(workspace_->decisions(), scene.toStdString()).edits;
-      edit.points_m.insert(edit.points_m.end(), out.begin(), out.end());
-    }
-    workspace_->set_edits(edits);
-  });
+  connect(pages_, &PageStack::measurements_excluded, this,
+          [this](const std::map<QString, SceneEdits>& more) {
+            std::map<QString, SceneEdits> edits;
+            for (const auto& [scene, out] : more) {
+              SceneEdits& edit = edits[scene];
+              edit = decision_of(workspace_->decisions(), scene.toStdString()).edits;
+              edit.points_m.insert(edit.points_m.end(), out.points_m.begin(), out.points_m.end());
+              for (const int tag : out.tags) {
+                if (!contains_id(edit.tags, tag)) edit.tags.push_back(tag);
+              }
+            }
+            workspace_->set_edits(edits);
+          });
   connect(pages_, &PageStack::scene_patch_excluded, this,
           [this](const QString& scene, const std::vector<Eigen::Vector2d>& patch) {
             SceneEdits edits = decision_of(workspace_->decisions(), scene.toStdString()).edits;

@@ -3,9 +3,9 @@
 
 #include <QEvent>
 #include <QTabWidget>
+#include <algorithm>
 
 #include "intrinsics/camera_page.h"
-#include "modelling/model_page.h"
 #include "pages/colors_pane.h"
 #include "pages/extrinsic_page.h"
 #include "pages/refinement_page.h"
@@ -65,8 +65,8 @@ PageStack::PageStack(QWidget* parent)
   connect(scene_, &ScenePage::failed, this, &PageStack::failed);
   connect(refinement_, &RefinementPage::failed, this, &PageStack::failed);
   connect(extrinsic_, &ExtrinsicPage::failed, this, &PageStack::failed);
-  connect(extrinsic_->world(), &WorldPane::excludeWanted, this, &PageStack::points_excluded);
-  connect(extrinsic_->colors(), &ColorsPane::excludeWanted, this, &PageStack::points_excluded);
+  connect(extrinsic_->world(), &WorldPane::excludeWanted, this, &PageStack::exclude_points);
+  connect(extrinsic_->colors(), &ColorsPane::excludeWanted, this, &PageStack::exclude_points);
   connect(extrinsic_, &ExtrinsicPage::sceneActivated, this, &PageStack::scene_wanted);
   connect(response_, &ResponsePage::failed, this, &PageStack::failed);
   connect(response_, &ResponsePage::sceneActivated, this, &PageStack::scene_wanted);
@@ -87,10 +87,8 @@ void PageStack::add_pages(ModelWork& work, Choices& choices) {
   connect(model_, &ModelPage::failed, this, &PageStack::failed);
   connect(&work, &ModelWork::changed, scene_, [this, &work] { scene_->setModel(work.step()); });
   connect(model_, &ModelPage::samplesSelected, this,
-          [this](const QString& scene, const std::vector<Eigen::Vector3d>& points,
-                 const std::vector<Eigen::Vector2d>& pixels) {
-            samples_[scene] = {points, pixels};
-          });
+          [this](const SamplesOfScenes& samples) { samples_ = samples; });
+  connect(model_, &ModelPage::excludeWanted, this, &PageStack::exclude_samples);
   // Not while they are being selected: only once the scene is looked at.
   connect(tabs_, &QTabWidget::currentChanged, this, &PageStack::show_samples);
   retranslate();
@@ -104,6 +102,37 @@ void PageStack::show_samples() {
   if (at == samples_.end()) return;
   if (!at->second.points_in_lidar_m.empty() || !at->second.pixels.empty())
     scene_->selectSamples(at->second.points_in_lidar_m, at->second.pixels);
+}
+
+void PageStack::exclude_points(const PointsOfScenes& points) {
+  std::map<QString, SceneEdits> more;
+  for (const auto& [scene, of_scene] : points) more[scene].points_m = of_scene;
+  Q_EMIT measurements_excluded(more);
+}
+
+// What was selected on the Model page: returns by their directions, corners by their tags.
+void PageStack::exclude_samples() {
+  if (!result_) return;
+  std::map<QString, SceneEdits> more;
+  for (const SceneResult& scene : result_->scenes) {
+    const auto at = samples_.find(QString::fromStdString(scene.name));
+    if (at == samples_.end()) continue;
+    SceneEdits out;
+    for (const std::uint32_t i : same_directions(scene.board_points, at->second.points_in_lidar_m))
+      out.points_m.push_back(scene.board_points.points_m[i]);
+    const auto& pixels = at->second.pixels;
+    const auto picked = [&](const CornerObservation& c) {
+      return !contains_id(out.tags, c.feature_id) &&
+             std::find(pixels.begin(), pixels.end(), c.pixel) != pixels.end();
+    };
+    if (scene.view) {
+      for (const CornerObservation& c : scene.view->corners) {
+        if (picked(c)) out.tags.push_back(c.feature_id);
+      }
+    }
+    if (!out.empty()) more[at->first] = std::move(out);
+  }
+  Q_EMIT measurements_excluded(more);
 }
 
 ThresholdPane* PageStack::thresholds() const {
@@ -127,6 +156,7 @@ int PageStack::tab_count() const {
 }
 
 void PageStack::start(const Dataset& dataset) {
+  samples_.clear();
   set_result(nullptr);
   scene_->setTarget(dataset.target);
   refinement_->setTarget(dataset.target);
@@ -141,12 +171,12 @@ void PageStack::set_dataset(const Dataset& dataset) {
 void PageStack::set_result(const std::shared_ptr<const CalibrationResult>& result) {
   latest_.reset();  // A finished run has more to show.
   result_ = result;
-  samples_.clear();
   scene_->setResult(result);
   refinement_->setResult(result);
   extrinsic_->setResult(result);
   response_->setResult(result);
   if (camera_ != nullptr) camera_->setResult(result);
+  show_samples();  // Beams are the same in another result.
 }
 
 void PageStack::set_scene(int scene, const std::optional<CropBox>& box) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "modelling/model_page.h"
 #include "pages/world_pane.h"
 #include "pipeline/calibration.h"
 #include "runner/scene_data.h"
@@ -20,7 +21,6 @@ namespace lvcalib::widgets {
 class CameraPage;
 class Choices;
 class ExtrinsicPage;
-class ModelPage;
 class ModelWork;
 class RefinementPage;
 class ResponsePage;
@@ -74,8 +74,8 @@ class PageStack : public QStackedWidget {
   void keep_patch_wanted(const QString& scene, int id);
   /// What the program refused of a scene is to be left out again.
   void kept_dropped(const QString& scene);
-  /// Points are to be left out of several scenes.
-  void points_excluded(const lvcalib::widgets::PointsOfScenes& points);
+  /// Points and tags are to be left out of several scenes.
+  void measurements_excluded(const std::map<QString, lvcalib::SceneEdits>& more);
   /// A patch of the board is to be left out of one scene.
   void scene_patch_excluded(const QString& scene, const std::vector<Eigen::Vector2d>& patch_m);
   /// A patch of the board is to be left out of every scene.
@@ -91,12 +91,8 @@ class PageStack : public QStackedWidget {
   void retranslate();
   void show_latest();
   void show_samples();
-
-  /// Measurements of a scene that were selected on the Model page.
-  struct Samples {
-    std::vector<Eigen::Vector3d> points_in_lidar_m;
-    std::vector<Eigen::Vector2d> pixels;
-  };
+  void exclude_points(const PointsOfScenes& points);
+  void exclude_samples();
 
   int current_ = -1;
   std::optional<CropBox> crop_;
@@ -110,7 +106,7 @@ class PageStack : public QStackedWidget {
   ResponsePage* response_;
   ModelPage* model_ = nullptr;
   CameraPage* camera_ = nullptr;
-  std::map<QString, Samples> samples_;
+  SamplesOfScenes samples_;  // Selected on the Model page.
   std::shared_ptr<const CalibrationResult> result_;
 };
 

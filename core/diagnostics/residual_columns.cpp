@@ -2,9 +2,9 @@
 #include "diagnostics/residual_columns.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "model/mixed_model.h"
 
@@ -34,25 +34,11 @@ std::vector<float> aligned(const ChannelResiduals& wanted, const ChannelResidual
   return out;
 }
 
-// What an effect adds to every channel's measurements, and how extrinsic, board poses and intensity
-// levels give way to it in a fit that does not know it.
-class Adaptation {
- public:
+// How extrinsic, board poses and intensity levels give way to an effect in a fit that does not know
+// it: with all its weights and random effects, told the effect's values and told zeros, what they
+// take over is the difference.
+struct Adaptation {
   Adaptation(const FittedModel& model, const EffectInUse& effect) {
-    for (const Channel channel : kAllChannels) {
-      Part& part = parts_[static_cast<std::size_t>(channel)];
-      part.rows = residuals_of(model.table, model.state, {}, channel);
-      const ChannelResiduals with = residuals_of(model.table, model.state, {effect}, channel);
-      part.pattern.resize(with.values.size());
-      for (std::size_t k = 0; k < with.values.size(); ++k)
-        part.pattern[k] = part.rows.values[k] - with.values[k];
-      part.sees_extrinsic = channel == Channel::kRange || channel == Channel::kBoundary;
-    }
-  }
-
-  // The fit with all its weights and random effects, told the effect's values and told zeros: what
-  // extrinsic, poses and levels take over is the difference.
-  void solve(const FittedModel& model, const EffectInUse& effect) {
     EffectColumnsList columns;
     columns.add(effect.effect, effect.shape, model.table);
     const Linearization linear = linearize(model.table, model.state, model.effects, columns, {});
@@ -67,41 +53,21 @@ class Adaptation {
     for (std::size_t k = 0; k < parameters.size(); ++k)
       subset.prior_mean[k] = effect.values(static_cast<Eigen::Index>(k));
     const ModelFit told = fit_model(linear, subset, untold.variances, {.rounds = 0});
-    extrinsic_ = untold.solution.head<6>() - told.solution.head<6>();
+    extrinsic = untold.solution.head<6>() - told.solution.head<6>();
     for (std::size_t s = 0; s < untold.local.size(); ++s)
-      local_.emplace_back(untold.local[s].head(kLocal) - told.local[s].head(kLocal));
+      local.emplace_back(untold.local[s].head(kLocal) - told.local[s].head(kLocal));
   }
 
-  [[nodiscard]] std::vector<float> pattern(Channel channel) const {
-    const Part& part = parts_[static_cast<std::size_t>(channel)];
-    std::vector<float> out;
-    out.reserve(part.pattern.size());
-    for (std::size_t k = 0; k < part.pattern.size(); ++k) {
-      double value = part.pattern[k];
-      if (!local_.empty()) {
-        value -= part.rows.nuisance[k].dot(local_[static_cast<std::size_t>(part.rows.scene[k])]) +
-                 part.extrinsic_row(k).dot(extrinsic_);
-      }
-      out.push_back(static_cast<float>(display_factor(channel) * value));
-    }
-    return out;
+  // What of it shows in a residual of such a derivative. The LiDAR sees the board through the
+  // extrinsic: its derivative is the pose's negative.
+  [[nodiscard]] double in_row(const NuisanceRow& row, int scene, bool sees_extrinsic) const {
+    const double own = row.dot(local[static_cast<std::size_t>(scene)]);
+    return sees_extrinsic ? own - row.head<6>().dot(extrinsic) : own;
   }
 
- private:
   static constexpr int kLocal = LocalLayout::kFixed;
-  struct Part {
-    ChannelResiduals rows;
-    std::vector<double> pattern;
-    bool sees_extrinsic = false;
-    // The LiDAR sees the board through the extrinsic: its derivative is the pose's negative.
-    [[nodiscard]] Vector6d extrinsic_row(std::size_t k) const {
-      if (!sees_extrinsic) return Vector6d::Zero();
-      return -rows.nuisance[k].head<6>();
-    }
-  };
-  std::array<Part, kChannels> parts_;
-  Vector6d extrinsic_ = Vector6d::Zero();
-  std::vector<Eigen::VectorXd> local_;
+  Vector6d extrinsic = Vector6d::Zero();
+  std::vector<Eigen::VectorXd> local;
 };
 
 }  // namespace
@@ -138,9 +104,20 @@ ResidualColumns residual_columns(const FittedModel& model, const FittedModel& be
 
 std::vector<float> effect_pattern(const FittedModel& model, const EffectInUse& effect,
                                   Channel channel, bool adapted) {
-  Adaptation adaptation(model, effect);
-  if (adapted) adaptation.solve(model, effect);
-  return adaptation.pattern(channel);
+  std::optional<Adaptation> adaptation;
+  if (adapted) adaptation.emplace(model, effect);
+  const std::vector<double> with = residuals_of(model.table, model.state, {effect}, channel).values;
+  const ChannelResiduals without = residuals_of(model.table, model.state, {}, channel);
+  const bool sees_extrinsic = channel == Channel::kRange || channel == Channel::kBoundary;
+  std::vector<float> out;
+  out.reserve(with.size());
+  for (std::size_t k = 0; k < with.size(); ++k) {
+    double value = without.values[k] - with[k];
+    if (adaptation)
+      value -= adaptation->in_row(without.nuisance[k], without.scene[k], sees_extrinsic);
+    out.push_back(static_cast<float>(display_factor(channel) * value));
+  }
+  return out;
 }
 
 std::vector<Channel> channels_of(const Effect& effect, double shape, const FittedModel& model) {

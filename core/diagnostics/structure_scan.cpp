@@ -27,45 +27,45 @@ constexpr int kNuisance = LocalLayout::kFixed;
 // out of the residuals: that is the same for every shape.
 class OwnRows {
  public:
-  using Nuisance = Eigen::Matrix<double, kNuisance, 1>;
+  using Nuisance = NuisanceRow;
 
-  OwnRows(const ChannelResiduals& residuals, int scenes)
-      : of_(residuals), weight_(residuals.values.size()), value_(residuals.values.size()) {
+  OwnRows(ChannelResiduals residuals, int scenes) : of_(std::move(residuals)) {
     const auto n = static_cast<std::size_t>(scenes);
     using Products = Eigen::Matrix<double, kNuisance, kNuisance>;
     std::vector<Products> products(n, Products::Zero());
+    // In the place of what they are made of: of many rows there is no room for both.
     for (std::size_t k = 0; k < size(); ++k) {
-      weight_[k] = 1.0 / residuals.sigma[k];
-      value_[k] = weight_[k] * residuals.values[k];
-      const Nuisance own = weight_[k] * residuals.nuisance[k];
-      products[scene(k)].noalias() += own * own.transpose();
+      of_.sigma[k] = 1.0 / of_.sigma[k];
+      of_.values[k] *= weight(k);
+      of_.nuisance[k] *= weight(k);
+      products[scene(k)].noalias() += nuisance(k) * nuisance(k).transpose();
     }
     std::vector<Products> basis;
     for (const Products& p : products) basis.push_back(orthonormal(p));
-    nuisance_.resize(size());
     std::vector<Nuisance> along(n, Nuisance::Zero());
     for (std::size_t k = 0; k < size(); ++k) {
-      nuisance_[k].noalias() = basis[scene(k)] * (weight_[k] * residuals.nuisance[k]);
-      along[scene(k)] += value_[k] * nuisance_[k];
+      of_.nuisance[k] = basis[scene(k)] * nuisance(k);
+      along[scene(k)] += value(k) * nuisance(k);
     }
     squares_.assign(n, 0.0);
     weights_.assign(n, 0.0);
     for (std::size_t k = 0; k < size(); ++k) {
-      value_[k] -= nuisance_[k].dot(along[scene(k)]);
-      squares_[scene(k)] += value_[k] * value_[k];
-      weights_[scene(k)] += weight_[k] * weight_[k];
+      of_.values[k] -= nuisance(k).dot(along[scene(k)]);
+      squares_[scene(k)] += value(k) * value(k);
+      weights_[scene(k)] += weight(k) * weight(k);
     }
   }
 
-  [[nodiscard]] const ChannelResiduals& residuals() const { return of_; }
+  [[nodiscard]] Channel channel() const { return of_.channel; }
+  [[nodiscard]] const std::vector<std::size_t>& rows() const { return of_.row; }
   [[nodiscard]] std::size_t size() const { return of_.values.size(); }
   [[nodiscard]] std::size_t scenes() const { return squares_.size(); }
   [[nodiscard]] std::size_t scene(std::size_t k) const {
     return static_cast<std::size_t>(of_.scene[k]);
   }
-  [[nodiscard]] double weight(std::size_t k) const { return weight_[k]; }  // 1/σ
-  [[nodiscard]] double value(std::size_t k) const { return value_[k]; }
-  [[nodiscard]] const Nuisance& nuisance(std::size_t k) const { return nuisance_[k]; }
+  [[nodiscard]] double weight(std::size_t k) const { return of_.sigma[k]; }  // 1/σ
+  [[nodiscard]] double value(std::size_t k) const { return of_.values[k]; }
+  [[nodiscard]] const Nuisance& nuisance(std::size_t k) const { return of_.nuisance[k]; }
   [[nodiscard]] double squares_of(std::size_t scene) const { return squares_[scene]; }
   [[nodiscard]] double weight_of(std::size_t scene) const { return weights_[scene]; }
 
@@ -87,9 +87,7 @@ class OwnRows {
     return share.asDiagonal() * axes.eigenvectors().transpose() * scale.asDiagonal();
   }
 
-  const ChannelResiduals& of_;
-  std::vector<double> weight_, value_;
-  std::vector<Nuisance> nuisance_;
+  ChannelResiduals of_;  // Its residuals and standard deviations as value() and weight().
   std::vector<double> squares_, weights_;  // By scene.
 };
 
@@ -246,16 +244,15 @@ bool is_better(const StructureScore& surface, const StructureScore& curve) {
 // rows are too few for it.
 std::optional<StructureScore> surface_score(const Covariate& x, const Covariate& y,
                                             const OwnRows& rows) {
-  StructureScore out{rows.residuals().channel, x.name, 0.0, 0.0};
+  StructureScore out{rows.channel(), x.name, 0.0, 0.0};
   out.second_covariate = y.name;
   const auto take = [&](const auto& surface, std::size_t rows_per_spline) {
     if (rows.size() < rows_per_spline * static_cast<std::size_t>(surface.size())) return false;
     score(surface, rows, out);
     return true;
   };
-  const bool taken = out.channel == Channel::kCorner
-                         ? take(ImageSurface(x, y, rows.residuals().row), 1)
-                         : take(Surface(x, y), kRowsPerSpline);
+  const bool taken = out.channel == Channel::kCorner ? take(ImageSurface(x, y, rows.rows()), 1)
+                                                     : take(Surface(x, y), kRowsPerSpline);
   return taken ? std::optional(out) : std::nullopt;
 }
 
@@ -272,7 +269,7 @@ bool says_more(const StructureScore& surface, const std::vector<StructureScore>&
 }
 
 StructureScore score_of(const Covariate& covariate, const OwnRows& rows) {
-  StructureScore out{rows.residuals().channel, covariate.name, 0.0, 0.0};
+  StructureScore out{rows.channel(), covariate.name, 0.0, 0.0};
   score(Curve(covariate, kCoarse), rows, out);
   if (covariate.categories || covariate.values.size() < kRowsPerSpline * kFine) return out;
   StructureScore fine = out;
@@ -312,11 +309,11 @@ bool StructureScore::is_at_a_place() const {
 }
 
 double place_score(const StructureScore& place, const MeasurementTable& table,
-                   const ChannelResiduals& residuals) {
+                   ChannelResiduals residuals) {
   const std::vector<Covariate> covariates = covariates_of(table, residuals.channel, residuals);
   const Covariate* x = find_in(covariates, place.covariate);
   if (x == nullptr) return 0.0;
-  const OwnRows rows(residuals, static_cast<int>(table.scenes.size()));
+  const OwnRows rows(std::move(residuals), static_cast<int>(table.scenes.size()));
   if (place.second_covariate.empty()) return score_of(*x, rows).score;
   const Covariate* y = find_in(covariates, place.second_covariate);
   if (y == nullptr) return 0.0;
@@ -324,14 +321,14 @@ double place_score(const StructureScore& place, const MeasurementTable& table,
   return found ? found->score : 0.0;
 }
 
-StructureScan scan_structure(const MeasurementTable& table, const EveryResidual& residuals,
+StructureScan scan_structure(const MeasurementTable& table, EveryResidual residuals,
                              const RunContext& context) {
   std::array<ScannedChannel, kChannels> channels;
   parallel_for(kChannels, context.thread_count(), [&](std::size_t k) {
-    const ChannelResiduals& r = residuals[k];
+    ChannelResiduals& r = residuals[k];
     if (r.values.empty() || context.stopped()) return;
-    channels[k].rows.emplace(r, static_cast<int>(table.scenes.size()));
     channels[k].covariates = covariates_of(table, r.channel, r);
+    channels[k].rows.emplace(std::move(r), static_cast<int>(table.scenes.size()));
   });
   StructureScan out;
   std::vector<Asked> asked;

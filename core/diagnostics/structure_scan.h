@@ -52,7 +52,7 @@ struct StructureScan {
   /// predict scenes held out better than the curves of their covariates.
   std::vector<StructureScore> places;
 };
-StructureScan scan_structure(const MeasurementTable& table, const EveryResidual& residuals,
+StructureScan scan_structure(const MeasurementTable& table, EveryResidual residuals,
                              const RunContext& context);
 StructureScan scan_structure(const MeasurementTable& table, const ModelState& state,
                              const std::vector<EffectInUse>& in_use, const RunContext& context);
@@ -60,7 +60,7 @@ StructureScan scan_structure(const MeasurementTable& table, const ModelState& st
 /// What a curve or surface of the kind of `place` (one of a StructureScan) predicts of other
 /// residuals of its channel: the share of held-out variance, not above zero if nothing.
 double place_score(const StructureScore& place, const MeasurementTable& table,
-                   const ChannelResiduals& residuals);
+                   ChannelResiduals residuals);
 
 /// Orders scores by the share that they explain, those that are equal as they were.
 void sort_best_first(std::vector<StructureScore>& scores);

@@ -73,7 +73,7 @@ void EffectSearch::ask_structure() {
     if (!found[k]) {
       EveryResidual residuals;
       residuals[k] = residuals_of(table(), state_, model(), channel, context_);
-      found[k] = notable_of(scan_structure(table(), residuals, context_), *options_);
+      found[k] = notable_of(scan_structure(table(), std::move(residuals), context_), *options_);
     }
     return *found[k];
   };
@@ -135,9 +135,9 @@ bool EffectSearch::leaves_a_place(const Candidate& candidate,
   trial.add(tried.effect, tried.shape);
   return std::ranges::any_of(places, [&](const StructureScore& place) {
     if (context_.stopped()) return false;
-    const ChannelResiduals left =
+    ChannelResiduals left =
         residuals_of(trial.table(), trial.state(), trial.model(), place.channel, context_);
-    return place_score(place, trial.table(), left) > kMost * place.score;
+    return place_score(place, trial.table(), std::move(left)) > kMost * place.score;
   });
 }
 

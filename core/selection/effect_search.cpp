@@ -419,6 +419,11 @@ void EffectSearch::remake() {
   constexpr double kLeft = 0.2;
   for (int round = 0; round < kRounds; ++round) {
     const Rigid3 before = state_.camera_from_lidar;
+    // The table of the last round goes before the next one comes: each takes hundreds of bytes for
+    // a return.
+    memory_.reset();
+    table_ = base_;
+    remade_.reset();
     auto next = std::make_shared<MeasurementTable>(base_->again(state_, in_use_, context_));
     if (context_.stopped()) return;
     next->again = base_->again;

@@ -33,11 +33,13 @@ class EffectSearch {
     context_ = context;
     if (!memory_) memory_.emplace(table());
   }
-  /// To be kept for later: nobody is told any more, and what only saves time is let go (44 bytes
-  /// for each row).
+  /// Lets go of the print as each row saw it last, 44 bytes for each: it only saves time, and
+  /// little where the state stays near that of the table.
+  void forget_print() { memory_.reset(); }
+  /// To be kept for later: nobody is told any more, and what only saves time is let go.
   void lay_aside() {
     context_ = {};
-    memory_.reset();
+    forget_print();
   }
   /// Adds an effect without asking and refits.
   void add(const EffectPtr& effect, double shape);

@@ -75,11 +75,11 @@ Result<ModelStepPtr> step_from(EffectSearch found, ModelStep step, const RunCont
   const auto model = search.model();
   step.nuisance.assign(model.begin() + static_cast<std::ptrdiff_t>(search.in_use().size()),
                        model.end());
-  const EveryResidual residuals = every_residual(search.table(), search.state(), model, context);
+  EveryResidual residuals = every_residual(search.table(), search.state(), model, context);
   if (context.stopped()) return Error::cancelled();
   step.channels = summarize_channels(residuals, model, search.reference().heldout);
   context.report("structure", 0.7, Message("looking for structure"));
-  StructureScan scan = scan_structure(search.table(), residuals, context);
+  StructureScan scan = scan_structure(search.table(), std::move(residuals), context);
   if (context.stopped()) return Error::cancelled();
   step.structure = std::move(scan.curves);
   step.places = std::move(scan.places);

@@ -141,6 +141,7 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
   EffectSearch search(*step.search);
   search.go_on(context);
   search.rank();
+  search.forget_print();
   if (context.stopped()) return Error::cancelled();
   context.report("verdicts", 0.7, Message("judging effects"));
   std::vector<Selection> selected;

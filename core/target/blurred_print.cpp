@@ -270,7 +270,9 @@ struct BlurredPrint::Level {
   double per_step = 0.0;
   int columns = 0;
   int rows = 0;
-  std::vector<std::array<float, 4>> samples;
+  template <class Number>
+  using Samples = std::vector<std::array<Number, 4>>;
+  Samples<std::int16_t> samples;  // In kUnit.
 
   Level(const Target& target, const BoardOutline& outline, double sigma, double spacing) {
     step = spacing * sigma;
@@ -281,8 +283,8 @@ struct BlurredPrint::Level {
     columns = static_cast<int>(std::ceil(size.x() / step)) + 1;
     rows = static_cast<int>(std::ceil(size.y() / step)) + 1;
     origin = outline.lower_left_m - border;
-    samples.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows),
-                   {1.0F, 0.0F, 0.0F, 0.0F});
+    Samples<float> exact(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows),
+                         {1.0F, 0.0F, 0.0F, 0.0F});
     const BlackShapes shapes = black_shapes(target);
     // Tags have many bits between the same two lines.
     std::map<std::pair<double, double>, Strip> across;
@@ -294,12 +296,18 @@ struct BlurredPrint::Level {
     };
     for (const BlackRectangle& r : shapes.rectangles) {
       blacken(of(across, r.lower_left.x(), r.upper_right.x(), origin.x(), columns),
-              of(along, r.lower_left.y(), r.upper_right.y(), origin.y(), rows));
+              of(along, r.lower_left.y(), r.upper_right.y(), origin.y(), rows), exact);
     }
-    if (shapes.discs.empty()) return;
-    const DiscProfile profile(shapes.disc_radius, sigma);
-    for (const Eigen::Vector2d& center : shapes.discs)
-      blacken(center, shapes.disc_radius + kReach * sigma, profile);
+    if (!shapes.discs.empty()) {
+      const DiscProfile profile(shapes.disc_radius, sigma);
+      for (const Eigen::Vector2d& center : shapes.discs)
+        blacken(center, shapes.disc_radius + kReach * sigma, profile, exact);
+    }
+    samples.resize(exact.size());
+    for (std::size_t k = 0; k < exact.size(); ++k) {
+      for (std::size_t i = 0; i < 4; ++i)
+        samples[k][i] = static_cast<std::int16_t>(std::lround(exact[k][i] / kUnit));
+    }
   }
 
   // What a strip from a to b lets a spot see, per sample: value and slope per step.
@@ -322,11 +330,11 @@ struct BlurredPrint::Level {
   }
 
   // A rectangle's blur is the product of its two strips'.
-  void blacken(const Strip& x, const Strip& y) {
+  void blacken(const Strip& x, const Strip& y, Samples<float>& exact) const {
     for (std::size_t j = 0; j < y.value.size(); ++j) {
       std::array<float, 4>* row =
-          &samples[(static_cast<std::size_t>(y.first) + j) * static_cast<std::size_t>(columns) +
-                   static_cast<std::size_t>(x.first)];
+          &exact[(static_cast<std::size_t>(y.first) + j) * static_cast<std::size_t>(columns) +
+                 static_cast<std::size_t>(x.first)];
       for (std::size_t i = 0; i < x.value.size(); ++i) {
         row[i][0] -= static_cast<float>(x.value[i] * y.value[j]);
         row[i][1] -= static_cast<float>(x.value[i] * y.slope[j]);
@@ -336,7 +344,8 @@ struct BlurredPrint::Level {
     }
   }
 
-  void blacken(const Eigen::Vector2d& center, double reach, const DiscProfile& profile) {
+  void blacken(const Eigen::Vector2d& center, double reach, const DiscProfile& profile,
+               Samples<float>& exact) const {
     const auto index = [&](double at, int count) {
       return std::clamp(static_cast<int>(std::floor(at / step)), 0, count - 1);
     };
@@ -346,8 +355,8 @@ struct BlurredPrint::Level {
         const Eigen::Vector2d d = step * Eigen::Vector2d(k, r) - c;
         const double rho = d.norm();
         const auto [value, first, second] = profile.at(rho);
-        auto& sample = samples[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) +
-                               static_cast<std::size_t>(k)];
+        auto& sample = exact[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) +
+                             static_cast<std::size_t>(k)];
         sample[0] -= static_cast<float>(value);
         if (rho <= 0.0) continue;
         const Eigen::Vector2d u = d / rho;
@@ -358,7 +367,7 @@ struct BlurredPrint::Level {
     }
   }
 
-  [[nodiscard]] const std::array<float, 4>& sample(int c, int r) const {
+  [[nodiscard]] const std::array<std::int16_t, 4>& sample(int c, int r) const {
     return samples[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) +
                    static_cast<std::size_t>(c)];
   }
@@ -367,7 +376,7 @@ struct BlurredPrint::Level {
     const Eigen::Vector2d at = (p - origin) / step;
     const int c = std::clamp(static_cast<int>(std::lround(at.x())), 0, columns - 1);
     const int r = std::clamp(static_cast<int>(std::lround(at.y())), 0, rows - 1);
-    return static_cast<double>(sample(c, r)[0]);
+    return static_cast<double>(kUnit) * sample(c, r)[0];
   }
 
   // Value, slopes and second derivatives, per step, summed over places with weights: each in four
@@ -403,11 +412,11 @@ struct BlurredPrint::Level {
     const int r = static_cast<int>(ay);
     const auto tx = static_cast<float>(ax - c);
     const auto ty = static_cast<float>(ay - r);
-    const std::array<float, 4>* lower = &sample(c, r);
-    const std::array<float, 4>* upper = lower + columns;
+    const std::array<std::int16_t, 4>* lower = &sample(c, r);
+    const std::array<std::int16_t, 4>* upper = lower + columns;
     using Four = Eigen::Array4f;
-    const auto four = [](const std::array<float, 4>& below, const std::array<float, 4>& above,
-                         std::size_t k) {
+    const auto four = [](const std::array<std::int16_t, 4>& below,
+                         const std::array<std::int16_t, 4>& above, std::size_t k) {
       return Four(below[k], below[k + 1], above[k], above[k + 1]);
     };
     const Four a = four(lower[0], upper[0], 0), as = four(lower[0], upper[0], 2);
@@ -415,8 +424,9 @@ struct BlurredPrint::Level {
     const auto along = [&](const HermiteWeights<float>& w) -> Four {
       return w.v0 * a + w.s0 * as + w.v1 * b + w.s1 * bs;
     };
-    const auto across = [weight](const HermiteWeights<float>& w) -> Four {
-      return static_cast<float>(weight) * Four(w.v0, w.s0, w.v1, w.s1);
+    const auto across = [unit = static_cast<float>(weight) *
+                                kUnit](const HermiteWeights<float>& w) -> Four {
+      return unit * Four(w.v0, w.s0, w.v1, w.s1);
     };
     const Four value = along(hermite(tx)), slope = along(hermite_slope(tx)),
                curvature = along(hermite_curvature(tx));

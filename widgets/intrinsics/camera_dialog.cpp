@@ -123,7 +123,9 @@ void CameraDialog::read() {
   const std::filesystem::path camera = QDir::fromNativeSeparators(camera_->text()).toStdString();
   runner_.start([this, wanted, target, camera](const RunContext&,
                                                const Runner::Post&) mutable -> Runner::Deliver {
-    const auto failed = [this](const Error& error) { return [=] { say(core_text(error)); }; };
+    const auto failed = [this](const Error& error) {
+      return [this, error] { say(core_text(error)); };
+    };
     const auto images = find_camera_images(wanted.folder);
     if (!images) return failed(images.error());
     const auto board = read_target(target.empty() ? images->target : target);

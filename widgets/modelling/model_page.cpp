@@ -8,7 +8,6 @@
 #include <QSplitter>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <map>
 
 #include "modelling/add_effect_dialog.h"
 #include "modelling/budget_plot.h"
@@ -135,6 +134,7 @@ void ModelPage::connectParts() {
           });
   connect(where_, &WherePane::turned, this, [this] { follow_pattern_ = false; });
   connect(where_, &WherePane::selected, this, &ModelPage::forward);
+  connect(where_, &WherePane::excludeWanted, this, &ModelPage::excludeWanted);
   connect(where_, &WherePane::failed, this, &ModelPage::failed);
   connect(budget_->figureActions(), &FigureActions::failed, this, &ModelPage::failed);
 }
@@ -253,21 +253,14 @@ void ModelPage::openDialog(const QString& covariate, std::optional<Channel> chan
 }
 
 void ModelPage::forward(const std::vector<SelectedSample>& samples) {
-  struct Parts {
-    std::vector<Eigen::Vector3d> points;
-    std::vector<Eigen::Vector2d> pixels;
-  };
-  std::map<int, Parts> scenes;
+  SamplesOfScenes out;
   for (const SelectedSample& s : samples) {
-    if (s.point_in_lidar_m) scenes[s.scene].points.push_back(*s.point_in_lidar_m);
-    if (s.pixel) scenes[s.scene].pixels.push_back(*s.pixel);
+    const auto& scene = shown_->table().scenes[static_cast<std::size_t>(s.scene)];
+    SceneSamples& of_scene = out[QString::fromStdString(scene.name)];
+    if (s.point_in_lidar_m) of_scene.points_in_lidar_m.push_back(*s.point_in_lidar_m);
+    if (s.pixel) of_scene.pixels.push_back(*s.pixel);
   }
-  if (!shown_) return;
-  for (std::size_t k = 0; k < shown_->table().scenes.size(); ++k) {
-    const Parts& parts = scenes[static_cast<int>(k)];
-    Q_EMIT samplesSelected(QString::fromStdString(shown_->table().scenes[k].name), parts.points,
-                           parts.pixels);
-  }
+  Q_EMIT samplesSelected(out);
 }
 
 void ModelPage::changeEvent(QEvent* event) {

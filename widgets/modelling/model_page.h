@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QWidget>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -19,6 +20,14 @@ class MissingPane;
 class ModelWork;
 class TermList;
 class WhatIfPane;
+
+/// Measurements of one scene: LiDAR returns and corners.
+struct SceneSamples {
+  std::vector<Eigen::Vector3d> points_in_lidar_m;
+  std::vector<Eigen::Vector2d> pixels;
+};
+/// By the scenes' names.
+using SamplesOfScenes = std::map<QString, SceneSamples>;
 
 /// The Model page: compare, locate, learn, add, watch. Error history and budget on top; the model,
 /// where it fails, and what is missing below. Work begins when the page is first seen.
@@ -38,9 +47,10 @@ class ModelPage : public QWidget {
  Q_SIGNALS:
   /// The steps are to be set side by side.
   void compareWanted();
-  /// Measurements were selected; scenes by name.
-  void samplesSelected(const QString& scene, const std::vector<Eigen::Vector3d>& points_in_lidar_m,
-                       const std::vector<Eigen::Vector2d>& pixels);
+  /// These measurements are selected, and no others.
+  void samplesSelected(const lvcalib::widgets::SamplesOfScenes& samples);
+  /// The measurements that were selected last are to be left out.
+  void excludeWanted();
   void failed(const QString& message);
 
  protected:

@@ -95,6 +95,10 @@ void ResidualPlot::emitBrush(const QRect& rect) {
 void ResidualPlot::rebuild() {
   clearFigure();
   if (!figure_) {
+    // Nothing of the figure before stays, in the words of a language before perhaps.
+    xAxis->setLabel({});
+    yAxis->setLabel({});
+    xAxis->setTicker(QSharedPointer<QCPAxisTicker>(new QCPAxisTicker));
     showMessage(message_.isEmpty() ? tr("no data") : message_);
     replot(rpQueuedReplot);
     return;

@@ -67,6 +67,14 @@ void WherePane::createBar() {
   before_->setChecked(true);
   bar->addWidget(before_);
   bar->addWidget(brush_);
+  exclude_ = new QToolButton(bar);
+  exclude_->setObjectName(QStringLiteral("where-exclude"));
+  exclude_->hide();
+  bar->addWidget(exclude_);
+  connect(exclude_, &QToolButton::clicked, this, [this] {
+    Q_EMIT excludeWanted();
+    brush_->setChecked(false);
+  });
   static_cast<QVBoxLayout*>(layout())->addWidget(bar);
   connect(channels_, &QComboBox::currentIndexChanged, this, [this] {
     fillCovariates();
@@ -137,6 +145,9 @@ QString WherePane::covariate() const {
 }
 
 void WherePane::setStep(const ModelStepPtr& step, const QString& reason) {
+  // Figures of another step are on their way: what is shown has rows of another table.
+  if (step != step_ && !exclude_->isHidden()) select({});
+  outdated_ = outdated_ || step != step_;
   step_ = step;
   reason_ = reason;
   fillChannels();
@@ -235,6 +246,10 @@ void WherePane::askBoard() {
 }
 
 void WherePane::showFigure(const std::shared_ptr<const ResidualFigure>& figure) {
+  // What is selected is forgotten with the residuals that it was selected of.
+  const bool others = !figure || !figure_ || figure->view != figure_->view;
+  if (others && !exclude_->isHidden()) select({});
+  outdated_ = false;
   figure_ = figure;
   plot_->setOverlayScale(scale_);
   plot_->setFigure(figure, reason_);
@@ -243,7 +258,7 @@ void WherePane::showFigure(const std::shared_ptr<const ResidualFigure>& figure) 
 
 // Rows whose covariates lie in the area; without `y` it is the residual itself.
 void WherePane::brush(const QString& x, const QString& y, const QRectF& area) {
-  if (!figure_) return;
+  if (!figure_ || outdated_) return;
   const ResidualColumns& c = figure_->view->columns;
   const Covariate* cx = c.find(x.toStdString());
   const Covariate* cy = y.isEmpty() ? nullptr : c.find(y.toStdString());
@@ -262,6 +277,7 @@ void WherePane::brush(const QString& x, const QString& y, const QRectF& area) {
 }
 
 void WherePane::select(std::vector<std::size_t> rows) {
+  exclude_->setVisible(!rows.empty());
   plot_->setSelected(rows);
   for (ResidualMapPlot* map : maps_) map->setSelected(rows);
   std::vector<SelectedSample> samples;
@@ -303,6 +319,9 @@ void WherePane::retranslate() {
   brush_->setText(tr("Brush"));
   brush_->setToolTip(
       tr("Dragging selects measurements, in all figures and in cloud and image of their scene"));
+  exclude_->setText(tr("Exclude these"));
+  exclude_->setToolTip(
+      tr("Leave out what is selected, in every scene, and solve again; of corners their tags"));
   before_->setText(tr("Before"));
   before_->setToolTip(tr("Show the means of the base model in grey"));
   flicker_->setText(tr("Flicker"));

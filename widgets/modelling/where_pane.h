@@ -48,6 +48,8 @@ class WherePane : public QWidget {
  Q_SIGNALS:
   /// Measurements were selected in a figure; empty: none.
   void selected(const std::vector<lvcalib::widgets::SelectedSample>& samples);
+  /// What was selected last is to be left out.
+  void excludeWanted();
   void failed(const QString& message);
   /// Channel or covariate were chosen by hand.
   void turned();
@@ -71,11 +73,13 @@ class WherePane : public QWidget {
   std::optional<EffectInUse> effect_;
   double scale_ = 1.0;
   std::shared_ptr<const ResidualFigure> figure_;
+  bool outdated_ = false;  // `figure_` is that of another step.
   QComboBox* channels_;
   QComboBox* covariates_;
   QLabel* channel_label_;
   QLabel* covariate_label_;
   QToolButton* brush_;
+  QToolButton* exclude_;
   QToolButton* before_;
   QTabWidget* tabs_;
   ResidualPlot* plot_;

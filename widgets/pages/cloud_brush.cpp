@@ -6,6 +6,8 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <set>
 
 #include "style/texts.h"
@@ -31,6 +33,25 @@ std::vector<Eigen::Vector3f> points_about_board(const SceneResult& scene, const 
     }
   }
   return out;
+}
+
+std::vector<std::uint32_t> same_directions(const Cloud& cloud,
+                                           const std::vector<Eigen::Vector3d>& wanted) {
+  static constexpr double kSameDirection =
+      1e-5;  // Far below the distance of beams, far above rounding.
+  const auto key = [](const Eigen::Vector3d& p) {
+    const Eigen::Vector3d d = p.normalized() / kSameDirection;
+    return std::array<std::int64_t, 3>{std::llround(d.x()), std::llround(d.y()),
+                                       std::llround(d.z())};
+  };
+  std::set<std::array<std::int64_t, 3>> directions;
+  for (const Eigen::Vector3d& p : wanted) directions.insert(key(p));
+  std::vector<std::uint32_t> found;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (directions.contains(key(cloud.points_m[i].cast<double>())))
+      found.push_back(static_cast<std::uint32_t>(i));
+  }
+  return found;
 }
 
 CloudBrush::CloudBrush(CloudView* view, ToolRow* row, const QString& name, ByScene by_scene)

@@ -29,6 +29,10 @@ using PointsOfScenes = std::map<QString, std::vector<Eigen::Vector3f>>;
 std::vector<Eigen::Vector3f> points_about_board(const SceneResult& scene, const Cloud& cloud,
                                                 const std::vector<std::uint32_t>& points);
 
+/// Indices of a cloud's points that lie in these directions, as seen from the origin.
+std::vector<std::uint32_t> same_directions(const Cloud& cloud,
+                                           const std::vector<Eigen::Vector3d>& wanted);
+
 /// The brush of a cloud view: its tool in a row, what is selected with it, and the button that
 /// leaves it out.
 class CloudBrush : public QObject {

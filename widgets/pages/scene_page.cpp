@@ -5,10 +5,8 @@
 #include <QSplitter>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <set>
 
 #include "camera/cloud_projection.h"
 #include "pages/cloud_brush.h"
@@ -30,25 +28,6 @@ constexpr std::size_t kNeighbours = 12;
 constexpr double kNeighbourhood_px = 25.0;
 constexpr std::size_t kTagPoints = 400;
 constexpr std::size_t kMostRings = 400;
-constexpr double kSameDirection = 1e-5;  // Far below the distance of beams, far above rounding.
-
-// Points of a cloud that lie in given directions.
-std::vector<std::uint32_t> same_directions(const Cloud& cloud,
-                                           const std::vector<Eigen::Vector3d>& wanted) {
-  const auto key = [](const Eigen::Vector3d& p) {
-    const Eigen::Vector3d d = p.normalized() / kSameDirection;
-    return std::array<std::int64_t, 3>{std::llround(d.x()), std::llround(d.y()),
-                                       std::llround(d.z())};
-  };
-  std::set<std::array<std::int64_t, 3>> directions;
-  for (const Eigen::Vector3d& p : wanted) directions.insert(key(p));
-  std::vector<std::uint32_t> found;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (directions.contains(key(cloud.points_m[i].cast<double>())))
-      found.push_back(static_cast<std::uint32_t>(i));
-  }
-  return found;
-}
 
 // A cloud that lives as long as the result it is part of.
 std::shared_ptr<const Cloud> board_points(const std::shared_ptr<const CalibrationResult>& result,

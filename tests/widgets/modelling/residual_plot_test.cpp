@@ -69,6 +69,14 @@ TEST(ResidualPlotTest, SaysWhyItIsEmpty) {
   EXPECT_TRUE(plot.csv().isEmpty());
 }
 
+TEST(ResidualPlotTest, NothingOfAFigureStaysWithoutIt) {
+  ResidualPlot plot;
+  plot.setFigure(figure("range"));
+  EXPECT_FALSE(plot.xAxis->label().isEmpty() || plot.yAxis->label().isEmpty());
+  plot.setFigure(nullptr, "its pattern is being drawn");
+  EXPECT_TRUE(plot.xAxis->label().isEmpty() && plot.yAxis->label().isEmpty());
+}
+
 TEST(ResidualPlotTest, BrushingGivesTheAreaInAxisUnits) {
   ResidualPlot plot;
   plot.resize(500, 300);

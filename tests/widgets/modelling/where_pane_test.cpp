@@ -103,6 +103,40 @@ TEST_F(Where, BrushingSelectsTheSameMeasurementsEverywhere) {
   EXPECT_TRUE(samples_.empty()) << "off again";
 }
 
+TEST_F(Where, WhatIsSelectedCanBeLeftOut) {
+  pane_.look(Channel::kRange, "range");
+  ASSERT_TRUE(wait_for("range"));
+  auto* exclude = pane_.findChild<QToolButton*>("where-exclude");
+  std::size_t left_out = 0;
+  QObject::connect(&pane_, &WherePane::excludeWanted, &pane_, [&] { left_out = samples_.size(); });
+  EXPECT_TRUE(exclude->isHidden()) << "nothing is selected";
+  pane_.findChild<QToolButton*>("brush")->click();
+  Q_EMIT plot_->brushed(QRectF(QPointF(0.0, -100.0), QPointF(2.2, 100.0)));
+  ASSERT_FALSE(exclude->isHidden());
+  exclude->click();
+  EXPECT_GT(left_out, 0U);
+  EXPECT_TRUE(samples_.empty()) << "it is decided";
+  EXPECT_TRUE(exclude->isHidden());
+}
+
+// Its rows are those of another table.
+TEST_F(Where, WhatAnotherStepShowsCannotBeSelected) {
+  pane_.look(Channel::kRange, "range");
+  ASSERT_TRUE(wait_for("range"));
+  const auto brush = [&] { Q_EMIT plot_->brushed(QRectF(QPointF(0, -100), QPointF(2.2, 100))); };
+  brush();
+  ASSERT_FALSE(samples_.empty());
+  const auto before = plot_->figure();
+  source_.setSteps(test::model_example().mended, test::model_example().base);
+  pane_.setStep(test::model_example().mended, {});
+  EXPECT_TRUE(samples_.empty()) << "of the step before";
+  brush();
+  EXPECT_TRUE(samples_.empty());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return plot_->figure() != before; }, 30'000));
+  brush();
+  EXPECT_FALSE(samples_.empty());
+}
+
 TEST_F(Where, BrushingKeepsUpWithTheHand) {
   pane_.look(Channel::kRange, "range");
   ASSERT_TRUE(wait_for("range"));

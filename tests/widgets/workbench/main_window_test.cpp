@@ -5,6 +5,7 @@
 #include <QCommandLinkButton>
 #include <QDialog>
 #include <QDir>
+#include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QDropEvent>
 #include <QFile>
@@ -34,6 +35,7 @@
 #include "docks/scenes_dock.h"
 #include "intrinsics/camera_dialog.h"
 #include "intrinsics/camera_page.h"
+#include "modelling/model_page.h"
 #include "pages/response_page.h"
 #include "pages/scene_page.h"
 #include "pages/world_pane.h"
@@ -44,6 +46,7 @@
 #include "views/cloud_view.h"
 #include "views/image_view.h"
 #include "widgets/workbench/main_window_fixture.h"
+#include "workbench/page_stack.h"
 
 namespace lvcalib::main_window_test {
 namespace {
@@ -104,6 +107,17 @@ TEST_F(MainWindowTest, ASecondDemoHasATourOfItsOwn) {
     EXPECT_EQ(window_->findChildren<widgets::CoachMarks*>().size(), 1);
   }
   QTest::qWait(300);  // They look every fifth of a second.
+}
+
+TEST_F(MainWindowTest, ParametersAndLogAreClosedUntilTheyAreAskedFor) {
+  EXPECT_FALSE(find<QDockWidget>(*window_, "scenes_dock")->isHidden());
+  for (const char* name : {"parameters_dock", "log_dock"}) {
+    auto* dock = find<QDockWidget>(*window_, name);
+    ASSERT_NE(dock, nullptr) << name;
+    EXPECT_TRUE(dock->isHidden()) << name;
+    dock->toggleViewAction()->trigger();
+    EXPECT_FALSE(dock->isHidden()) << name;
+  }
 }
 
 TEST_F(MainWindowTest, UntickingSolvesAtOnceAndUndoBringsItBack) {
@@ -382,6 +396,30 @@ TEST_F(MainWindowTest, PointsBrushedInAllScenesAreLeftOutAtOnce) {
   EXPECT_EQ(workspace().result()->scenes[1].left_out_points.size(), 1U);
   ASSERT_TRUE(trigger(*window_, "undo"));
   EXPECT_TRUE(left_out("A").empty() && left_out("B").empty());
+}
+
+TEST_F(MainWindowTest, WhatIsBrushedOnTheModelPageIsLeftOut) {
+  run();
+  auto* page = window_->findChild<widgets::ModelPage*>();
+  ASSERT_NE(page, nullptr);
+  const auto& scene = workspace().result()->scenes[1];
+  const Eigen::Vector3f point = scene.board_points.points_m[4];
+  const CornerObservation& corner = scene.view->corners[5];
+  // Its range is another than measured: the beam tells which return it is.
+  Q_EMIT page->samplesSelected({{"B", {{1.03 * point.cast<double>()}, {corner.pixel}}}});
+  // Once more the calibration, as when the model's budget is known.
+  window_->findChild<widgets::PageStack*>()->set_result(workspace().result());
+  Q_EMIT page->excludeWanted();
+  const auto edits = [&](const char* name) {
+    return decision_of(workspace().decisions(), name).edits;
+  };
+  EXPECT_EQ(edits("B").points_m, std::vector<Eigen::Vector3f>{point});
+  EXPECT_EQ(edits("B").tags, std::vector<int>{corner.feature_id});
+  EXPECT_TRUE(edits("A").empty() && edits("C").empty());
+  ASSERT_TRUE(test::wait_for_result(*window_));
+  EXPECT_EQ(workspace().result()->scenes[1].left_out_points.size(), 1U);
+  ASSERT_TRUE(trigger(*window_, "undo"));
+  EXPECT_TRUE(edits("B").empty());
 }
 
 TEST_F(MainWindowTest, APartOfTheBoardIsLeftOutOfOneSceneOrOfAll) {
