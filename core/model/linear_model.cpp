@@ -403,9 +403,10 @@ struct Task {
   std::array<ChannelSums, kChannels> sums = {};
 };
 
-// Parts of a scene's rows that are long beside what adding them up costs.
+// Parts of a scene's rows that are long beside what adding them up costs: sums over many columns
+// are some megabytes each, and wait for the others.
 void add_tasks(std::size_t scene, PartRows rows, std::vector<Task>& tasks) {
-  constexpr std::size_t kRows = 16384;
+  constexpr std::size_t kRows = 65536;
   const std::size_t parts = rows.range.empty() ? 1 : 1 + rows.size() / kRows;
   const std::span<const RangeRow> range = rows.range;
   for (std::size_t k = 1; k < parts; ++k)
