@@ -196,6 +196,27 @@ TEST(Calibrate, NamesAWrongFocalLengthOfASingleTag) {
   }
 }
 
+// Three scenes that cannot tell such a camera from noise: what they leave open is in the total.
+TEST(Calibrate, WhatFewCornersCannotTellOfTheCameraIsInTheTotalUncertainty) {
+  simulation::SimulationOptions options = test::dataset_options(999'012, 3);
+  options.image.width_px = 800;
+  options.image.height_px = 500;
+  options.lidar.points = 60'000;
+  options.target = test::single_tag_target();
+  const test::SimulatedDataset data(options);
+  for (const double factor : {0.99, 1.005}) {
+    Dataset dataset = data.open();
+    dataset.camera.fx *= factor;
+    dataset.camera.fy *= factor;
+    const auto result = calibrate(dataset, {}, {});
+    ASSERT_TRUE(result.ok()) << result.error().text();
+    const Vector6d off = se3_log(data.rig().camera_from_lidar *
+                                 result->extrinsic.camera_from_lidar.transform.inverse());
+    EXPECT_GT(off.head<3>().norm(), 0.005) << "too small a fault to be noticed";
+    EXPECT_LT(off.dot(result->covariance_total.ldlt().solve(off)), 22.5) << factor;  // 0.1 %.
+  }
+}
+
 // Without circles scenes that contradict each other leave too few; what the images say is said.
 TEST(Calibrate, NamesAWrongFocalLengthWhereItLeavesTooFewScenes) {
   simulation::SimulationOptions options = test::dataset_options(998'004, 3);
