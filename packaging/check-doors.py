@@ -74,7 +74,7 @@ TESTED_BY = {
         "sensor_errors": "core/selection/effect_search"},
     "core/model/effects": {"*": "core/selection/hidden_effects"},
     "core/pipeline": {
-        "board_images": "camera_calibration", "board_surface": "widgets/views/cloud_scene",
+        "board_agreement": "diagnosis", "board_images": "camera_calibration", "board_surface": "widgets/views/cloud_scene",
         "camera_figures": "camera_calibration", "forward_stage": "calibration",
         "fresh_data": "widgets/tools/check_dialog", "modelled_movements": "without_effects",
         "print_verdict": "quality", "refusals": "scene_edits", "resolve_calibration": "calibration",

@@ -54,7 +54,7 @@ class RowSums {
   }
 
  private:
-  static constexpr int kTogether = 8;
+  static constexpr int kTogether = 8;  // Doubles: two to four vector registers.
   struct Run {
     Eigen::Index first, count;
   };
@@ -406,7 +406,7 @@ struct Task {
 // Parts of a scene's rows that are long beside what adding them up costs: sums over many columns
 // are some megabytes each, and wait for the others.
 void add_tasks(std::size_t scene, PartRows rows, std::vector<Task>& tasks) {
-  constexpr std::size_t kRows = 65536;
+  constexpr std::size_t kRows = 65536;  // Halves of 26 000 hold 100 MB more in a search, for 3 %.
   const std::size_t parts = rows.range.empty() ? 1 : 1 + rows.size() / kRows;
   const std::span<const RangeRow> range = rows.range;
   for (std::size_t k = 1; k < parts; ++k)

@@ -2,13 +2,12 @@
 #include "pipeline/camera_resection.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "localization/scene_consensus.h"
+#include "pipeline/board_images.h"
 #include "pipeline/calibration.h"
 #include "pipeline/diagnosis.h"
 #include "solve/bundle_adjustment.h"
@@ -33,23 +32,11 @@ std::vector<BoardPair> pairs_of(const CalibrationResult& result) {
   return out;
 }
 
-// RMS distance of a board's corners from where a camera sees them; infinite if it does not.
-double miss_px(const BoardView& view, const Camera& camera, const Rigid3& camera_from_board) {
-  double squares = 0.0;
-  for (const CornerObservation& c : view.corners) {
-    const auto pixel =
-        camera.project(camera_from_board * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0));
-    if (!pixel) return std::numeric_limits<double>::infinity();
-    squares += (*pixel - c.pixel).squaredNorm();
-  }
-  return std::sqrt(squares / static_cast<double>(view.corners.size()));
-}
-
 // Resection from a first extrinsic: which candidates are the boards is asked again with what comes
 // out, as the first camera may be far off.
 std::optional<BundleFit> resect(const std::vector<BoardPair>& pairs, const Camera& start,
                                 const Rigid3& camera_from_lidar) {
-  constexpr int kRounds = 3;
+  constexpr int kRounds = 3;  // The first with the first camera; a wrong choice is seen in one.
   const IntrinsicsVector wide = wide_intrinsics_sigma(start);
   std::optional<BundleFit> fit;
   for (int round = 0; round < kRounds; ++round) {
@@ -58,7 +45,7 @@ std::optional<BundleFit> resect(const std::vector<BoardPair>& pairs, const Camer
     SeenPoints body;
     for (const BoardPair& pair : pairs) {
       const auto miss = [&](const BoardCandidate& c) {
-        return miss_px(pair.view, camera, place * c.lidar_from_board.transform);
+        return corner_rms_px(pair.view.corners, camera, place * c.lidar_from_board.transform);
       };
       const auto best =
           std::min_element(pair.candidates.begin(), pair.candidates.end(),
@@ -113,7 +100,7 @@ std::optional<BundleFit> best_resection(const std::vector<BoardPair>& pairs, con
 }  // namespace
 
 Message intrinsics_that_agree(const CalibrationResult& result) {
-  constexpr std::size_t kFewest = 3;
+  constexpr std::size_t kFewest = 3;  // What two boards have a camera agree on is chance.
   if (result.intrinsics.mode != IntrinsicsMode::kFixed) return {};
   const std::vector<BoardPair> pairs = pairs_of(result);
   if (pairs.size() < kFewest) return {};

@@ -192,6 +192,16 @@ std::optional<Error> diagnose_exchanged_clouds(const Dataset& dataset,
                           Message("give each scene its own image and cloud"));
 }
 
+int fewest_agreeing(const std::vector<SceneHypotheses>& scenes, const SceneConsensus& consensus) {
+  for (std::size_t s = 0; s < std::min(scenes.size(), consensus.chosen.size()); ++s) {
+    const auto& chosen = consensus.chosen[s];
+    if (chosen && *chosen < scenes[s].candidates.size() &&
+        scenes[s].candidates[*chosen].correlation > 0.0)
+      return 2;
+  }
+  return 3;
+}
+
 std::optional<Error> diagnose_mirrored(const Dataset& dataset, const CalibrationRequest& request,
                                        const CalibrationResult& result,
                                        std::vector<SceneHypotheses> scenes, int agreeing,
@@ -213,13 +223,8 @@ std::optional<Error> diagnose_mirrored(const Dataset& dataset, const Calibration
   });
   const auto consensus = decide_scenes(scenes, std::nullopt, request.options.consensus);
   if (context.stopped() || !consensus) return std::nullopt;
-  // Outlines alone have likenesses: two scenes may find panels that agree.
-  bool by_print = false;
-  for (std::size_t k = 0; k < scenes.size(); ++k) {
-    const auto& chosen = consensus->chosen[k];
-    by_print = by_print || (chosen && scenes[k].candidates[*chosen].correlation > 0.0);
-  }
-  if (consensus->agreeing < std::max(by_print ? 2 : 3, agreeing + 1)) return std::nullopt;
+  if (consensus->agreeing < std::max(fewest_agreeing(scenes, *consensus), agreeing + 1))
+    return std::nullopt;
   return Error::untrusted(
       Message("the scenes do not agree, but %1 of them do if the clouds are mirrored (their axes "
               "make a left-handed frame)",

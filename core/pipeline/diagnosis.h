@@ -44,6 +44,10 @@ std::optional<Error> diagnose_exchanged_clouds(const Dataset& dataset,
                                                const CalibrationResult& result,
                                                const RunContext& context);
 
+/// How many scenes agree by more than chance: two by their prints, three by outlines alone, which
+/// have likenesses (two scenes may find panels that agree).
+int fewest_agreeing(const std::vector<SceneHypotheses>& scenes, const SceneConsensus& consensus);
+
 /// After scenes have found boards that do not agree: whether more of them than did, and two at
 /// least (by outlines alone three), agree once the clouds are taken for mirrored ones. The error
 /// that says so.

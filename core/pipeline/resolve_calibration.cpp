@@ -197,7 +197,7 @@ Status reconsider_scenes(CalibrationResult& result, const Target& target,
     std::vector<std::size_t> place(asked.size(), 0);
     for (std::size_t k = 0, next = 0; k < asked.size(); ++k) place[k] = asked[k].use ? next++ : 0;
     const auto bad = std::find_if(suspects.begin(), suspects.end(), [&](std::size_t k) {
-      return agreement_of(*forward, place[k], result.options.quality) != SceneAgreement::kAgrees;
+      return !agrees_with_others(*forward, place[k], result.options.quality);
     });
     if (bad != suspects.end()) {
       asked[*bad].use = false;

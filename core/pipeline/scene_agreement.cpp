@@ -13,6 +13,7 @@
 
 #include "base/statistics.h"
 #include "base/text.h"
+#include "pipeline/board_agreement.h"
 #include "pipeline/diagnosis.h"
 #include "pipeline/forward_stage.h"
 #include "pipeline/verdict.h"
@@ -201,29 +202,27 @@ class Motions {
 
 }  // namespace
 
-SceneAgreement agreement_of(const ForwardSolution& forward, std::size_t scene,
-                            const QualityOptions& options) {
+bool agrees_with_others(const ForwardSolution& forward, std::size_t scene,
+                        const QualityOptions& options) {
   constexpr double kChance = 0.001;  // As unlikely as what is called a motion.
   std::vector<SceneInformation> told;
-  std::vector<bool> own(forward.terms.size(), false);
-  std::vector<bool> others(forward.terms.size(), true);
   for (const GlobalTerm& term : forward.terms) {
-    if (!term.usable) return SceneAgreement::kUntold;
+    if (!term.usable) return false;
     told.push_back({term.information.topLeftCorner<6, 6>(), term.gradient.head<6>()});
   }
   const Motions motions(std::move(told));
-  if (!motions.told(scene, scene + 1)) return SceneAgreement::kUntold;
-  if (!(motions.apart(scene, scene + 1) < kChance)) return SceneAgreement::kAgrees;
+  if (!motions.told(scene, scene + 1)) return false;
+  if (!(motions.apart(scene, scene + 1) < kChance)) return true;
+  std::vector<bool> own(forward.terms.size(), false);
   own[scene] = true;
-  others[scene] = false;
+  std::vector<bool> others = own;
+  others.flip();
   const auto one = solve_subset(forward, own);
   const auto rest = solve_subset(forward, others);
-  if (!one || !rest) return SceneAgreement::kUntold;
-  const bool matters =
-      translation_distance_m(one->transform.inverse(), rest->transform.inverse()) >
-          options.tolerance_m ||
-      rotation_distance_rad(one->transform, rest->transform) > options.tolerance_rad;
-  return matters ? SceneAgreement::kContradicts : SceneAgreement::kAgrees;
+  return one && rest &&
+         translation_distance_m(one->transform.inverse(), rest->transform.inverse()) <=
+             options.tolerance_m &&
+         rotation_distance_rad(one->transform, rest->transform) <= options.tolerance_rad;
 }
 
 void judge_bump(const CalibrationResult& result, Verdict& verdict) {
@@ -368,17 +367,13 @@ void judge_splits(const CalibrationResult& result, Verdict& verdict) {
 }
 
 // Without a second one the best extrinsic by other places has the evidence of one scene, of two
-// scenes half of all; with one it has nearly all. Outlines alone have likenesses: two scenes may
-// find panels that agree.
+// scenes half of all; with one it has nearly all.
 void judge_second_board(const CalibrationResult& result, Verdict& verdict) {
   constexpr double kMostOfIt = 0.75;  // Half way between the two.
-  const auto by_print = [](const SceneResult& scene) {
-    return scene.chosen && scene.search && *scene.chosen < scene.search->candidates.size() &&
-           scene.search->candidates[*scene.chosen].correlation > 0.0;
-  };
   const SceneConsensus& consensus = result.consensus;
-  const int fewest = std::any_of(result.scenes.begin(), result.scenes.end(), by_print) ? 2 : 3;
-  if (consensus.agreeing < fewest || !(consensus.score > 0.0)) return;
+  if (consensus.agreeing < fewest_agreeing(hypotheses(result), consensus) ||
+      !(consensus.score > 0.0))
+    return;
   const double share = consensus.elsewhere / consensus.score;
   if (share < kMostOfIt) return;
   verdict.doubtful(

@@ -55,16 +55,12 @@ void judge_print(const CalibrationResult& result, const QualityOptions& options,
 /// Scenes on which the result rests alone: without one the extrinsic moves by more than three of
 /// its standard deviations, and by more than the scene's weight explains.
 void judge_leverage(const CalibrationResult& result, Verdict& verdict);
-/// What a scene says of the extrinsic, against what the others do.
-enum class SceneAgreement {
-  kUntold,       ///< It, or the others together, do not determine the extrinsic.
-  kAgrees,       ///< It differs from them by no more than they do among themselves, or too little
-                 ///< to matter.
-  kContradicts,  ///< By more than chance makes it (F-test, one in a thousand) and the tolerance.
-};
-/// By every corner and return, to first order about the solution; `scene` counts those in it.
-SceneAgreement agreement_of(const ForwardSolution& forward, std::size_t scene,
-                            const QualityOptions& options);
+/// Whether a scene's extrinsic differs from that of the others by no more than they differ among
+/// themselves (F-test, one in a thousand), or by less than the tolerance. By every corner and
+/// return, to first order about the solution; `scene` counts those in it. False as well where it,
+/// or the others together, do not determine the extrinsic.
+bool agrees_with_others(const ForwardSolution& forward, std::size_t scene,
+                        const QualityOptions& options);
 /// Whether what scenes contradict each other in is a motion: scenes before some moment agree among
 /// themselves and those after it too, or all but one agree, or the extrinsic moves steadily.
 /// F-tests against what scenes differ by otherwise, so that an effect that is missing is not taken

@@ -6,23 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "support/synthetic_observations.h"
 
 namespace lvcalib {
 namespace {
 
 constexpr double kNoise_px = 0.1;
-
-Camera true_camera() {
-  Camera camera;
-  camera.width_px = 800;
-  camera.height_px = 500;
-  camera.fx = 610.0;
-  camera.fy = 612.0;
-  camera.cx = 405.0;
-  camera.cy = 246.0;
-  camera.distortion << -0.08, 0.03, 2e-4, -1e-4, 0, 0, 0, 0;
-  return camera;
-}
 
 // Resection: points of one body that is no plane tell camera and pose from one image.
 TEST(BundleAdjustment, OneBodyTellsTheCamera) {
@@ -36,18 +25,18 @@ TEST(BundleAdjustment, OneBodyTellsTheCamera) {
         body.point_m.push_back(pose.inverse() * in_camera);
         Eigen::Vector2d e;
         for (double& part : e) part = random.normal();
-        body.pixel.push_back(*true_camera().project(in_camera) + kNoise_px * e);
+        body.pixel.push_back(*test::test_camera().project(in_camera) + kNoise_px * e);
       }
     }
   }
-  Camera given = true_camera();
+  Camera given = test::test_camera();
   given.fx *= 1.3;
   given.fy *= 1.3;
   given.cx += 40.0;
   const Rigid3 start = se3_exp(Vector6d::Constant(0.05)) * pose;
   const auto fit = fit_bundle({body}, {start}, given, wide_intrinsics_sigma(given));
   ASSERT_TRUE(fit);
-  const IntrinsicsVector off = intrinsics_of(fit->camera) - intrinsics_of(true_camera());
+  const IntrinsicsVector off = intrinsics_of(fit->camera) - intrinsics_of(test::test_camera());
   for (Eigen::Index k = 0; k < 9; ++k)
     EXPECT_LT(std::abs(off(k)), 4.0 * std::sqrt(fit->covariance(k, k))) << k;
   EXPECT_LT(std::abs(off(0)), 3.0);
@@ -63,10 +52,10 @@ TEST(BundleAdjustment, NeedsPointsAndImagesOfThem) {
     few.pixel.emplace_back(405.0 + 30.0 * k, 246.0);
   }
   const IntrinsicsVector held = IntrinsicsVector::Zero();
-  EXPECT_FALSE(fit_bundle({few}, {Rigid3()}, true_camera(), held));
+  EXPECT_FALSE(fit_bundle({few}, {Rigid3()}, test::test_camera(), held));
   few.point_m.emplace_back(0.0, 0.0, -1.0);  // Behind the camera.
   few.pixel.emplace_back(400.0, 250.0);
-  EXPECT_FALSE(fit_bundle({few}, {Rigid3()}, true_camera(), held));
+  EXPECT_FALSE(fit_bundle({few}, {Rigid3()}, test::test_camera(), held));
 }
 
 }  // namespace
