@@ -229,16 +229,6 @@ void widen_total(CalibrationResult& result, const Rigid3& freed) {
   if (std::isfinite(q) && q > 1.0) result.covariance_total += (1.0 - 1.0 / q) * m * m.transpose();
 }
 
-// Few corners know their noise so badly that intrinsics must be far off to be contradicted. What
-// they do not contradict they do not exclude: where the freed solve lies beyond the 95 % of its own
-// covariance, the total uncertainty reaches to it.
-void widen_by_open(CalibrationResult& result, const UncertainRigid3& freed) {
-  const Vector6d move =
-      se3_log(freed.transform * result.extrinsic.camera_from_lidar.transform.inverse());
-  if (move.dot(freed.covariance.ldlt().solve(move)) > chi_square_gate(6, 0.05))
-    widen_total(result, freed.transform);
-}
-
 // How estimated intrinsics differ from what camera.yaml says of them, in its own σ.
 void check_against_prior(CalibrationResult& result, const std::vector<CornerView>& views) {
   IntrinsicsReport& report = result.intrinsics;
@@ -671,7 +661,10 @@ Status check_intrinsics(CalibrationResult& result,
   }
   if (report.contradiction && report.contradiction->camera_from_lidar)
     widen_total(result, report.contradiction->camera_from_lidar->transform);
-  if (!report.contradiction && few && freed) widen_by_open(result, extrinsic_of(*freed));
+  // Few corners know their noise so badly that intrinsics must be far off to be contradicted. What
+  // they do not contradict they do not exclude.
+  if (!report.contradiction && few && freed)
+    widen_total(result, freed->camera_from_lidar.transform);
   return Done{};
 }
 

@@ -45,7 +45,8 @@ void judge_leverage(const CalibrationResult& result, Verdict& verdict) {
   const std::vector<std::size_t> in_use = scenes_in_use(result.extrinsic);
   const std::size_t n = in_use.size();
   // As many tests as scenes, one in a hundred together.
-  const double gate = chi_square_gate(6, 0.01 / static_cast<double>(std::max<std::size_t>(1, n)));
+  const double gate =
+      f_gate(6, result.forward->dof, 0.01 / static_cast<double>(std::max<std::size_t>(1, n)));
   for (const std::size_t k : in_use) {
     const SceneSolution& scene = result.extrinsic.scenes[k];
     std::vector<std::size_t> others;

@@ -294,11 +294,17 @@ bool admit_shared(const GlobalSolution& step, bool boards, double false_alarm,
                   ForwardNoise& noise) {
   std::size_t best = kSharedErrors;
   double largest = 1.0;
+  // Where lines are off each by its own, so is their mean, and the price has been paid.
+  const bool lines = noise.admitted[static_cast<std::size_t>(SharedError::kSensorLine)];
+  const auto costly = [&](std::size_t k) {
+    return k >= kSceneErrors &&
+           !(lines && k == static_cast<std::size_t>(SharedError::kSensorRange));
+  };
   for (std::size_t k = 0; k < kSharedErrors; ++k) {
     if (boards != moves_board(k) || noise.admitted[k] || step.effective[k] < kOneError) continue;
     const double n = step.effective[k];
     const double t = step.squares[k] / (noise.shared[k] * step.determined[k]);
-    const double chance = false_alarm * (k < kSceneErrors ? 1.0 : kSensorChance);
+    const double chance = false_alarm * (costly(k) ? kSensorChance : 1.0);
     const double gate = chi_square_gate(static_cast<int>(std::lround(n)), chance) / n;
     if (t / gate > largest) {
       largest = t / gate;
@@ -480,9 +486,19 @@ void last_step(const ForwardRun& in, Iteration& it) {
   it.last = std::move(step);
 }
 
+// As many residuals as tell the corners' noise, the boards' poses taken off.
+double corner_freedom(const std::vector<SceneFit>& fits) {
+  constexpr double kPose = 6.0;
+  double freedom = 0.0;
+  for (const SceneFit& fit : fits)
+    freedom += std::max(0.0, static_cast<double>(fit.corner_rows) - kPose);
+  return freedom;
+}
+
 // ν = 2v²/Var(v), v the trace of the extrinsic's scaled covariance, whose variance comes from
-// that of the estimated variances: Var(D) = 2D²/γ.
-double satterthwaite(const ForwardRun& in, const Iteration& it) {
+// that of the estimated variances: Var(D) = 2D²/γ, of shared errors and of the corners' noise.
+// That of ranges and intensities is told by hundreds of returns.
+double satterthwaite(const ForwardRun& in, Iteration& it) {
   constexpr double kStep = 0.2;
   const auto spread = [](const GlobalSolution& s) {
     // Rotations act over some three metres.
@@ -492,16 +508,30 @@ double satterthwaite(const ForwardRun& in, const Iteration& it) {
   };
   const double v = spread(it.last);
   double variance = 0.0;
+  const auto add = [&](const std::vector<SceneEquations>& equations, const SharedVariances& shared,
+                       double freedom) {
+    const GlobalSolution s =
+        solve_equations(equations, it.prior, it.before, shared,
+                        {BoardMotion::kWidens, false, in.context.thread_count()});
+    if (!s.solvable) return;
+    const double slope = (spread(s) - v) / kStep;  // By the logarithm of D.
+    variance += slope * slope * 2.0 / std::max(1.0, freedom);
+  };
   for (std::size_t k = 0; k < kSharedErrors; ++k) {
     if (!it.noise.admitted[k]) continue;
     SharedVariances varied = it.noise.shared;
     varied[k] *= 1.0 + kStep;
-    const GlobalSolution s =
-        solve_equations(it.equations, it.prior, it.before, varied,
-                        {BoardMotion::kWidens, false, in.context.thread_count()});
-    if (!s.solvable) continue;
-    const double slope = (spread(s) - v) / kStep;  // By the logarithm of D.
-    variance += slope * slope * 2.0 / std::max(1.0, it.last.determined[k]);
+    add(it.equations, varied, it.last.determined[k]);
+  }
+  // Where many corners tell their noise the rows need not be linearized once more.
+  constexpr double kManyCorners = 200.0;
+  if (const double freedom = corner_freedom(it.fits); freedom > 0.0 && freedom < kManyCorners) {
+    ForwardNoise varied = it.noise;
+    varied.corner_px *= std::sqrt(1.0 + kStep);
+    const LinearizedScenes rows =
+        linearize_scenes({in.scenes, it.returns, in.print, it.state, varied},
+                         final_rows(in.options), it.seen, in.context.thread_count());
+    add(rows.equations, it.noise.shared, freedom);
   }
   constexpr double kMany = 1e6;
   return variance > 0.0 ? std::min(kMany, 2.0 * v * v / variance) : kMany;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/total_uncertainty.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Cholesky>
@@ -8,6 +9,15 @@
 #include "base/semidefinite.h"
 
 namespace lvcalib {
+namespace {
+
+// By how much the variance of Student's t with this freedom exceeds that of the normal
+// distribution: ν/(ν − 2). Below three it has none, and three's is used.
+double excess_variance(double freedom) {
+  return 2.0 / (std::max(3.0, freedom) - 2.0);
+}
+
+}  // namespace
 
 Matrix6d total_covariance(const ForwardSolution& solution, const LeftOutSizes& sizes) {
   const Matrix6d& own = solution.camera_from_lidar.covariance;
@@ -52,6 +62,8 @@ Matrix6d total_covariance(const ForwardSolution& solution, const LeftOutSizes& s
   const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(all, all));
   const Vector6d shift = factor.solve(asked).head<6>();
   Matrix6d total = inverse.topLeftCorner<6, 6>() + shift * shift.transpose();
+  // Nor does the solution's own know how well few residuals tell their noise.
+  total += excess_variance(solution.dof) * own;
   // Faults of the scans that are there, and what the data ask for of angles and origin that may be
   // there: what these do to the extrinsic is not in the solve.
   for (const ScanFault& fault : solution.scan_faults) {

@@ -36,7 +36,8 @@ struct LeftOutSizes {
 /// nothing, and what leaves no trace adds all it can do. To first order about `solution`; where the
 /// data ask for other intrinsics than the held ones, for other angles or another origin of the
 /// beams, the squares of those shifts are in it as well, and so are those of motion and lag within
-/// the scans where these are there (see ScanFault).
+/// the scans where these are there (see ScanFault). The solution's own part is that of Student's
+/// distribution with its degrees of freedom.
 /// Never below the solution's own covariance.
 Matrix6d total_covariance(const ForwardSolution& solution, const LeftOutSizes& sizes);
 

@@ -18,6 +18,8 @@
 #include <string>
 #include <vector>
 
+#include <boost/math/distributions/students_t.hpp>
+
 #include "base/statistics.h"
 #include "information_bound.h"
 #include "pipeline/calibration.h"
@@ -37,15 +39,17 @@ struct RigOutcome {
   double bound_mm = 0, bound_mrad = 0;
   double stated_mm = 0, stated_mrad = 0;
   Vector6d normalized = Vector6d::Zero();
+  double dof = 0.0;
   // Components within the 95 % interval.
   [[nodiscard]] int inside() const {
-    return static_cast<int>((normalized.cwiseAbs().array() < 1.96).count());
+    const boost::math::students_t student(std::max(1.0, dof));
+    return static_cast<int>(
+        (normalized.cwiseAbs().array() < boost::math::quantile(student, 0.975)).count());
   }
   double bound_chi = 0.0;  // eᵀFe/6
   double node_chi = 0.0;   // The same of the joint solve over nodes and planes.
   int scanner = 0;
   bool circles = true;
-  double dof = 0.0;
   // Squared distance of the extrinsic from what localization agreed on, in the latter's σ.
   double place_chi = 0.0;
   std::vector<double> node_errors_mm;

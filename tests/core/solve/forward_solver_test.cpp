@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "forward_rig.h"
+#include "solve/total_uncertainty.h"
 #include "support/ordinary_boards.h"
 
 namespace lvcalib {
@@ -357,6 +358,27 @@ TEST(ForwardSolver, ErrorsThatScenesShareWidenTheInterval) {
             10.0 * clean->camera_from_lidar.covariance.trace());
   EXPECT_LT(size_in_sigmas(moved->camera_from_lidar, rig.camera_from_lidar), 2.5);
   EXPECT_LT(moved->dof, 100.0);
+}
+
+TEST(ForwardSolver, FewCornersTellTheirNoiseBadly) {
+  auto o = options(63, LidarKind::kAvia, 3);
+  const auto many = solve(forward_rig(o), Vector6d::Zero());
+  o.target = test::single_tag_target();
+  const auto few = solve(forward_rig(o), Vector6d::Zero());
+  ASSERT_TRUE(many && few);
+  EXPECT_GT(many->dof, 1000.0);
+  // Four corners, eight coordinates, of which the pose takes six: two a scene; ranges and
+  // intensities say their part of the extrinsic with all the freedom that they have.
+  EXPECT_LT(few->dof, 100.0);
+  EXPECT_GE(few->dof, 6.0 - 1e-6);
+  // The total uncertainty is that of Student's distribution.
+  ForwardSolution sure = *few;
+  sure.dof = 1e6;
+  ForwardSolution unsure = *few;
+  unsure.dof = 6.0;
+  const Matrix6d wider = total_covariance(unsure, {}) - total_covariance(sure, {});
+  EXPECT_LT((wider - 0.5 * few->camera_from_lidar.covariance).norm(),
+            1e-3 * few->camera_from_lidar.covariance.norm());
 }
 
 TEST(ForwardSolver, AnOffsetOfAllRangesIsTheSensorsOwn) {
