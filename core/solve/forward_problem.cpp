@@ -313,7 +313,8 @@ class LidarRows {
                      Accumulator& out) {
     const double plain = noise_between(noise_.intensity_white, noise_.intensity_black, p.white);
     const Eigen::RowVector2d& by_angle = p.intensity_by_angle;
-    const double variance = intensity_variance(plain, by_angle, state_.beam.jitter_rad2);
+    const double variance =
+        intensity_variance(plain, by_angle, p.intensity_by_blur, state_.beam.jitter_rad2);
     const double sigma = std::sqrt(variance);
     SparseRow row;
     for (Eigen::Index i = 0; i < 6; ++i) row.add(i, p.intensity_by_pose(i));
@@ -355,7 +356,9 @@ class LidarRows {
     out.squares += robust * intensity * intensity;
     out.residual_squares += robust * e * e;
     note_noise(p.white, e, sigma, 2, out);
-    out.fit.jitter.add(by_angle, e, plain * plain, variance);
+    out.fit.jitter.add(by_angle, e,
+                       plain * plain + bent_variance(p.intensity_by_blur, state_.beam.jitter_rad2),
+                       variance);
   }
 
   [[nodiscard]] double time_s(std::size_t k) const {

@@ -8,10 +8,10 @@
 namespace lvcalib {
 
 void JitterRegression::add(const Eigen::RowVector2d& by_angle, double residual,
-                           double plain_variance, double variance) {
+                           double flat_variance, double variance) {
   const Eigen::Vector2d g = by_angle.transpose().cwiseAbs2();
   const double beyond =
-      std::min(residual * residual, kCut * kCut * variance) / kCutMean - plain_variance;
+      std::min(residual * residual, kCut * kCut * variance) / kCutMean - flat_variance;
   const double weight = 1.0 / (variance * variance);
   normal_ += weight * g * g.transpose();
   sums_ += weight * beyond * g;

@@ -17,9 +17,9 @@ inline constexpr double kCutMean = 0.9904;
 /// along it (rad²).
 class JitterRegression {
  public:
-  /// An intensity with its residual, `by_angle` = g, σ² on plain print and the variance that it is
-  /// thought to have.
-  void add(const Eigen::RowVector2d& by_angle, double residual, double plain_variance,
+  /// An intensity with its residual, `by_angle` = g, the variance that it would have without g (σ²
+  /// on plain print, and bent_variance()) and the one that it is thought to have.
+  void add(const Eigen::RowVector2d& by_angle, double residual, double flat_variance,
            double variance);
   void add(const JitterRegression& other);
   /// Covariance of the jitter, rad², beam frame: never negative, never more than the whole blur.

@@ -15,13 +15,26 @@ inline double noise_between(double on_white, double on_black, double white) {
   return std::exp(white * std::log(on_white) + (1.0 - white) * std::log(on_black));
 }
 
+/// What the pointing jitter J adds to the variance of an intensity where the print bends under the
+/// beam, beside an edge: ½ tr((∇∇ᵀA J)²), with `by_blur` the mean intensity's change with the blur
+/// (hh, hv, vv), ½∇∇ᵀA. As A is blurred by J, the variance is that and gᵀJg, and higher
+/// derivatives.
+inline double bent_variance(const Eigen::RowVector3d& by_blur, const Eigen::Matrix2d& jitter_rad2) {
+  Eigen::Matrix2d half;
+  half << by_blur(0), 0.5 * by_blur(1), 0.5 * by_blur(1), by_blur(2);
+  const Eigen::Matrix2d bent = half * jitter_rad2;
+  return 2.0 * std::max(0.0, (bent * bent).trace());
+}
+
 /// Variance of a return's intensity: that on plain print, whose standard deviation is
 /// `plain_sigma`, and what the pointing jitter makes of it where the intensity changes with the
 /// beam's direction.
 inline double intensity_variance(double plain_sigma, const Eigen::RowVector2d& by_angle,
+                                 const Eigen::RowVector3d& by_blur,
                                  const Eigen::Matrix2d& jitter_rad2) {
   return plain_sigma * plain_sigma +
-         std::max(0.0, (by_angle * jitter_rad2 * by_angle.transpose()).value());
+         std::max(0.0, (by_angle * jitter_rad2 * by_angle.transpose()).value()) +
+         bent_variance(by_blur, jitter_rad2);
 }
 
 }  // namespace lvcalib
