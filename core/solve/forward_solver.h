@@ -70,7 +70,9 @@ struct ForwardSceneResult {
 struct ForwardSolution {
   /// Covariance of the left perturbation in the camera frame, shared errors included.
   UncertainRigid3 camera_from_lidar;
-  double dof = 0.0;  ///< Student's, by Satterthwaite's approximation.
+  /// Student's, by Satterthwaite's approximation: how well the variances of shared errors and of the
+  /// corners are known.
+  double dof = 0.0;
   ForwardState state;
   ForwardNoise noise;
   Eigen::Matrix3d blur_covariance = Eigen::Matrix3d::Zero();  ///< Of (hh, hv, vv), rad⁴.
