@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "model/catalogue_effect.h"
 #include "model/effect_rows.h"
+#include "model/fitted_model.h"
 #include "model/print_rows.h"
 #include "model/scene_geometry.h"
 
@@ -280,24 +281,25 @@ PartRows rows_of(const MeasurementTable& table, int scene, const ChannelMask& ch
 // Accumulates rows of one scene.
 class SceneAccumulator {
  public:
-  SceneAccumulator(const MeasurementTable& table, const ModelState& state,
-                   const std::vector<EffectInUse>& in_use, const EffectColumnsList& columns,
+  // The model must outlive it.
+  SceneAccumulator(const FittedModel& model, const EffectColumnsList& columns,
                    const LocalLayout& layout, std::size_t scene, PrintMemory* memory)
-      : table_(table),
+      : table_(model.table),
         memory_(memory),
         scene_(static_cast<int>(scene)),
-        geometry_(state.camera_from_lidar, state.camera_from_board[scene]),
-        camera_from_board_(state.camera_from_board[scene]),
+        geometry_(model.state.camera_from_lidar, model.state.camera_from_board[scene]),
+        camera_from_board_(model.state.camera_from_board[scene]),
         rotation_(geometry_.lidar_from_board().rotation.toRotationMatrix()),
-        in_use_(in_use),
-        in_use_columns_(columns_in_use(in_use, table)),
-        used_rows_(table, in_use_columns_.list()),
-        told_(columns_of_effects_in_use(columns.list(), in_use)),
-        candidate_rows_(table, std::span(columns.list()).subspan(told_)),
-        corner_rows_(table, columns.list()),
+        in_use_(model.effects),
+        in_use_columns_(columns_in_use(model.effects, model.table)),
+        used_rows_(model.table, in_use_columns_.list()),
+        told_(columns_of_effects_in_use(columns.list(), model.effects)),
+        candidate_rows_(model.table, std::span(columns.list()).subspan(told_)),
+        corner_rows_(model.table, columns.list()),
         // Others than those in use may let black grow.
-        print_(table, state, scene, in_use, columns.list().size() > in_use.size()),
-        log_contrast_(log_contrast(state.levels[scene])),
+        print_(model.table, model.state, scene, model.effects,
+               columns.list().size() > model.effects.size()),
+        log_contrast_(log_contrast(model.state.levels[scene])),
         layout_(layout),
         extrinsic_(layout.size()),
         effects_(extrinsic_ + 6),
@@ -619,8 +621,8 @@ PrintMemory::PrintMemory(const MeasurementTable& table) {
 
 Linearization linearize(const MeasurementTable& table, const ModelState& state,
                         const std::vector<EffectInUse>& in_use, const EffectColumnsList& columns,
-                        const RunContext& context, const ChannelMask& channels,
-                        PrintMemory* memory) {
+                        const RunContext& context, const RowsTaken& rows) {
+  const FittedModel model{table, state, in_use};
   Linearization out;
   out.columns = columns;
   out.scenes.resize(table.scenes.size());
@@ -630,7 +632,7 @@ Linearization linearize(const MeasurementTable& table, const ModelState& state,
   }
   std::vector<Task> tasks;
   for (std::size_t s = 0; s < out.scenes.size(); ++s)
-    add_tasks(s, rows_of(table, static_cast<int>(s), channels), tasks);
+    add_tasks(s, rows_of(table, static_cast<int>(s), rows.channels), tasks);
   // The longest first, so that all threads end together.
   std::vector<std::size_t> order(tasks.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -640,9 +642,9 @@ Linearization linearize(const MeasurementTable& table, const ModelState& state,
   parallel_for(tasks.size(), context.thread_count(), [&](std::size_t k) {
     Task& task = tasks[order[k]];
     if (context.stopped()) return;
-    task.sums = SceneAccumulator(table, state, in_use, columns, out.scenes[task.scene].layout,
-                                 task.scene, memory)
-                    .sums_of(task.rows);
+    task.sums =
+        SceneAccumulator(model, columns, out.scenes[task.scene].layout, task.scene, rows.memory)
+            .sums_of(task.rows);
   });
   for (Task& task : tasks) add(std::move(task.sums), out.scenes[task.scene]);
   parallel_for(out.scenes.size(), context.thread_count(), [&](std::size_t s) {

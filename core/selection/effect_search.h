@@ -178,8 +178,8 @@ class EffectSearch {
   [[nodiscard]] Linearization linearized(const std::vector<EffectInUse>& effects,
                                          const EffectColumnsList& columns,
                                          const ChannelMask& channels = kEveryChannel) const {
-    return linearize(table(), state_, effects, columns, context_, channels,
-                     memory_ ? &*memory_ : nullptr);
+    return linearize(table(), state_, effects, columns, context_,
+                     {channels, memory_ ? &*memory_ : nullptr});
   }
   // Columns that stand for effect number `of`, its value in use taken for zero.
   struct OtherColumns {
