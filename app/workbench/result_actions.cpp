@@ -91,8 +91,9 @@ void ResultActions::check(const std::shared_ptr<const CalibrationResult>& result
   for (const SceneFiles& scene : dataset.scenes) {
     if (!scene.problem) pairs.push_back({scene.name, scene.image, scene.cloud, {}, {}});
   }
-  auto* dialog = new CheckDialog(result ? result->camera : dataset.camera, pose, std::move(pairs),
-                                 decided, choices_, settings_.last_folder(), &window_);
+  auto* dialog = new CheckDialog({result ? result->camera : dataset.camera, pose, std::move(pairs),
+                                  decided, settings_.last_folder()},
+                                 choices_, &window_);
   connect(dialog, &CheckDialog::roughPoseWanted, this, &ResultActions::rough_pose_wanted);
   dialog->show();
 }

@@ -215,20 +215,17 @@ std::optional<Error> other_count(const GrayImage& image, const Target& target, c
 
 // Where a quarter of the board should be in the image and shows no tag of the target's: with ids
 // counted from another number the tags seen fit as well, whole rows off. Then other tags are there.
-std::optional<Error> miscounted_tags(const GrayImage& image, const std::vector<BoardTag>& tags,
-                                     const Target& target, const Camera& camera,
-                                     const Rigid3& camera_from_board,
-                                     const DetectionOptions& options, const RunContext& context) {
+bool may_be_miscounted(const std::vector<BoardTag>& tags, const Target& target,
+                       const Camera& camera, const Rigid3& camera_from_board) {
   if (target.type != TargetType::kAprilGrid && target.type != TargetType::kAprilGridCircles)
-    return std::nullopt;
+    return false;
   std::size_t visible = 0;
   for (const TargetTag& tag : target.tags()) {
     const auto pixel = camera.project(camera_from_board *
                                       Eigen::Vector3d(tag.center_m.x(), tag.center_m.y(), 0.0));
     visible += pixel && camera.in_image(*pixel) ? 1 : 0;
   }
-  if (4 * tags.size() > 3 * visible) return std::nullopt;
-  return other_count(image, target, camera, options, context);
+  return 4 * tags.size() <= 3 * visible;
 }
 
 std::string id_list(const std::set<int>& ids) {
@@ -299,9 +296,9 @@ Result<BoardView> view_tags(const GrayImage& image, const Target& target, const 
     if (context.stopped()) return Error::cancelled();
   }
   if (!enough()) return misplaced();
-  if (const auto error = miscounted_tags(image, tags, target, camera,
-                                         pose->camera_from_board.transform, options, context))
-    return *error;
+  if (may_be_miscounted(tags, target, camera, pose->camera_from_board.transform)) {
+    if (const auto error = other_count(image, target, camera, options, context)) return *error;
+  }
   std::vector<CornerObservation> corners = to_observations(tags, target);
   pose = estimate_board_pose(corners, camera, options);
   if (!pose) return pose.error();

@@ -17,7 +17,9 @@ struct BasisRow {
   std::array<int, 16> column{};
   std::array<double, 16> value{};
   int count = 0;
+  int run = 1;  ///< So many at a time, 1 or kSplineRun, stand in columns beside each other.
 };
+constexpr int kSplineRun = 4;  ///< Cubic splines that are not zero anywhere.
 
 /// Cubic B-splines over quantiles of the covariate; categories have one column each.
 class Basis {
@@ -54,9 +56,10 @@ class Basis {
     return categories_ ? static_cast<int>(knots_.size()) : intervals_ + 3;
   }
 
-  void evaluate(float x, BasisRow& out) const {
+  // Called for every row of every shape; what it writes is read at once.
+  [[gnu::always_inline]] void evaluate(float x, BasisRow& out) const {
     if (categories_) {
-      out.count = 1;
+      out.count = out.run = 1;
       out.value[0] = 1.0;
       out.column[0] =
           static_cast<int>(std::lower_bound(knots_.begin(), knots_.end(), x) - knots_.begin());
@@ -68,8 +71,8 @@ class Basis {
     const auto at = static_cast<std::size_t>(interval);
     const double t = std::clamp((static_cast<double>(x) - knots_[at]) * per_width_[at], 0.0, 1.0);
     const double u = 1.0 - t;
-    out.count = 4;
-    for (int k = 0; k < 4; ++k) out.column[static_cast<std::size_t>(k)] = interval + k;
+    out.count = out.run = kSplineRun;
+    for (int k = 0; k < kSplineRun; ++k) out.column[static_cast<std::size_t>(k)] = interval + k;
     constexpr double kSixth = 1.0 / 6.0;
     out.value[0] = kSixth * u * u * u;
     out.value[1] = kSixth * (3 * t * t * t - 6 * t * t + 4);
@@ -119,6 +122,7 @@ class Surface {
       }
     }
     out.count = static_cast<int>(n);
+    out.run = by.run;
   }
 
  private:

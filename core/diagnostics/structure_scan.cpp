@@ -21,6 +21,7 @@ constexpr int kCoarse = 8;  // splines of a covariate
 constexpr int kFine = 32;   // where rows are many: ripples of several periods over the board
 constexpr std::size_t kRowsPerSpline = 50;
 constexpr int kNuisance = LocalLayout::kFixed;
+constexpr int kFewNuisance = LocalLayout::kPose;
 
 // One channel's residuals as the shapes see them, in units of their standard deviations. What each
 // scene's own pose and levels can do is described by orthonormal columns over its rows, and taken
@@ -42,6 +43,9 @@ class OwnRows {
     }
     std::vector<Products> basis;
     for (const Products& p : products) basis.push_back(orthonormal(p));
+    few_ = std::all_of(basis.begin(), basis.end(), [](const Products& p) {
+      return p.topRows<kNuisance - kFewNuisance>().isZero(0.0);
+    });
     std::vector<Nuisance> along(n, Nuisance::Zero());
     for (std::size_t k = 0; k < size(); ++k) {
       of_.nuisance[k] = basis[scene(k)] * nuisance(k);
@@ -66,6 +70,8 @@ class OwnRows {
   [[nodiscard]] double weight(std::size_t k) const { return of_.sigma[k]; }  // 1/σ
   [[nodiscard]] double value(std::size_t k) const { return of_.values[k]; }
   [[nodiscard]] const Nuisance& nuisance(std::size_t k) const { return of_.nuisance[k]; }
+  /// Whether only the last kFewNuisance nuisance columns hold anything, as where levels do not act.
+  [[nodiscard]] bool few_nuisances() const { return few_; }
   [[nodiscard]] double squares_of(std::size_t scene) const { return squares_[scene]; }
   [[nodiscard]] double weight_of(std::size_t scene) const { return weights_[scene]; }
 
@@ -89,6 +95,7 @@ class OwnRows {
 
   ChannelResiduals of_;  // Its residuals and standard deviations as value() and weight().
   std::vector<double> squares_, weights_;  // By scene.
+  bool few_ = false;
 };
 
 // Products of a shape's columns over one scene's rows, what the scene's own nuisance can do taken
@@ -98,28 +105,46 @@ struct SceneSums {
   Eigen::VectorXd residual;
 };
 
-template <class Shape>
+// Adds a row to the products of the shape's columns with each other (the lower triangle is whole),
+// with the residual and with the scene's nuisances.
+template <int Run, class Nuisances, class NuisanceSums>
+[[gnu::always_inline]] inline void add_row(const BasisRow& b, double weight, double residual,
+                                           const Nuisances& nuisances, SceneSums& sums,
+                                           NuisanceSums& by_nuisances) {
+  using Values = Eigen::Matrix<double, Run, 1>;
+  // Columns rise within a row.
+  for (std::size_t i = 0; i < static_cast<std::size_t>(b.count); i += Run) {
+    const Values own = weight * Values::Map(&b.value[i]);
+    const int at = b.column[i];
+    sums.residual.template segment<Run>(at) += residual * own;
+    by_nuisances.template middleCols<Run>(at).noalias() += nuisances * own.transpose();
+    for (std::size_t j = 0; j <= i; j += Run) {
+      sums.curve.template block<Run, Run>(at, b.column[j]).noalias() +=
+          own * (weight * Values::Map(&b.value[j])).transpose();
+    }
+  }
+}
+
+// Of the last `Nuisances` nuisance columns: those before hold nothing.
+template <int Nuisances, class Shape>
 std::vector<SceneSums> scene_sums(const Shape& shape, const OwnRows& rows) {
   std::vector<SceneSums> sums(rows.scenes());
-  std::vector<Eigen::Matrix<double, kNuisance, Eigen::Dynamic>> nuisance(rows.scenes());
+  std::vector<Eigen::Matrix<double, Nuisances, Eigen::Dynamic>> nuisance(rows.scenes());
   for (std::size_t s = 0; s < sums.size(); ++s) {
     sums[s].curve.setZero(shape.size(), shape.size());
     sums[s].residual.setZero(shape.size());
-    nuisance[s].setZero(kNuisance, shape.size());
+    nuisance[s].setZero(Nuisances, shape.size());
   }
   BasisRow b;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const std::size_t scene = rows.scene(k);
-    SceneSums& s = sums[scene];
     shape.evaluate(k, b);
-    const auto count = static_cast<std::size_t>(b.count);
-    for (std::size_t i = 0; i < count; ++i) b.value[i] *= rows.weight(k);
-    for (std::size_t i = 0; i < count; ++i) {
-      s.residual(b.column[i]) += b.value[i] * rows.value(k);
-      nuisance[scene].col(b.column[i]) += b.value[i] * rows.nuisance(k);
-      // Columns rise within a row: the lower triangle.
-      for (std::size_t j = 0; j <= i; ++j)
-        s.curve(b.column[i], b.column[j]) += b.value[i] * b.value[j];
+    const auto nuisances = rows.nuisance(k).template tail<Nuisances>();
+    if (b.run == kSplineRun) {
+      add_row<kSplineRun>(b, rows.weight(k), rows.value(k), nuisances, sums[scene],
+                          nuisance[scene]);
+    } else {
+      add_row<1>(b, rows.weight(k), rows.value(k), nuisances, sums[scene], nuisance[scene]);
     }
   }
   for (std::size_t s = 0; s < sums.size(); ++s) {
@@ -140,7 +165,8 @@ struct AllSums {
 template <class Shape>
 AllSums all_sums(const Shape& shape, const OwnRows& rows) {
   AllSums out;
-  out.scenes = scene_sums(shape, rows);
+  out.scenes = rows.few_nuisances() ? scene_sums<kFewNuisance>(shape, rows)
+                                    : scene_sums<kNuisance>(shape, rows);
   out.curve.setZero(shape.size(), shape.size());
   out.gradient.setZero(shape.size());
   for (std::size_t s = 0; s < out.scenes.size(); ++s) {

@@ -194,19 +194,17 @@ class CellGrid {
   std::vector<char> occupied_;
 };
 
-// The part of `ids` connected to the seed.
+// The part of `ids` connected to the seed of an empty grid on the patch.
 std::vector<std::uint32_t> connected_part(const VoxelCloud& cloud,
                                           const std::vector<std::uint32_t>& ids,
-                                          const PlanarPatch& frame, const Eigen::Vector2d& seed,
-                                          const PatchConnection& connection, double cell,
-                                          double radius) {
-  CellGrid grid(seed, cell, radius);
+                                          const PlanarPatch& frame, CellGrid grid,
+                                          bool cut_strips) {
   std::vector<int> cells(ids.size());
   for (std::size_t k = 0; k < ids.size(); ++k) {
     cells[k] = grid.cell_of(frame.to_plane(cloud.voxels()[ids[k]].mean_m.cast<double>()));
     grid.occupy(cells[k]);
   }
-  const std::vector<char> reached = grid.reach(connection.cut_strips);
+  const std::vector<char> reached = grid.reach(cut_strips);
   std::vector<std::uint32_t> out;
   for (std::size_t k = 0; k < ids.size(); ++k) {
     if (reached[static_cast<std::size_t>(cells[k])] != 0) out.push_back(ids[k]);
@@ -298,8 +296,8 @@ std::optional<PlanarPatch> grow(const PatchGrowth& by, std::uint32_t seed, Local
     patch.center_m = plane.center;
     plane_basis(patch.normal, patch.axis_u, patch.axis_v);
     const auto near = within(by.cloud, ids, plane, by.tolerance);
-    patch.voxels = connected_part(by.cloud, near, patch, patch.to_plane(seed_point), connection,
-                                  connection.gap * by.short_side, by.reach);
+    const CellGrid grid(patch.to_plane(seed_point), connection.gap * by.short_side, by.reach);
+    patch.voxels = connected_part(by.cloud, near, patch, grid, connection.cut_strips);
     const auto refit = least_squares_plane(by.cloud, patch.voxels);
     if (!refit || patch.voxels.size() < kMinNeighbours) return std::nullopt;
     plane = *refit;

@@ -12,8 +12,8 @@ namespace lvcalib {
 double log_power(double range_m, double incidence_rad) {
   constexpr double kReference_m = 3.0;   // A usual distance of boards; a choice of the scale alone.
   constexpr double kLeastCosine = 0.05;  // 87°: beyond what any prediction is made for (80°).
-  return std::log(std::max(kLeastCosine, std::cos(incidence_rad))) -
-         2.0 * std::log(range_m / kReference_m);
+  const double near = kReference_m / range_m;
+  return std::log(std::max(kLeastCosine, std::cos(incidence_rad)) * near * near);
 }
 
 AngleAxes angle_axes(const BeamPoint& beam) {

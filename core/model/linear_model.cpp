@@ -2,6 +2,7 @@
 #include "model/linear_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "base/parallel.h"
 #include "model/catalogue_effect.h"
 #include "model/effect_rows.h"
+#include "model/fitted_model.h"
 #include "model/print_rows.h"
 #include "model/scene_geometry.h"
 
@@ -26,88 +28,160 @@ struct ChannelSums {
   int rows = 0;
 };
 
-// Adds up rows most of whose columns are zero. Some are taken together, so that the products pass
-// through the processor once for all of them.
+constexpr std::size_t kTogether = 8;  // Rows added up at a time, so that sums are passed once.
+constexpr std::size_t kWide = 4;      // Doubles in a vector register of most processors.
+
+// Rows that wait to be added up: kTogether of them, their values beside each other, `stride` from
+// one row to the next.
+struct WaitingRows {
+  const double* values;
+  std::size_t stride, columns;
+  const double* weights;  // Of each row.
+};
+
+// Adds a lower triangle of products of the columns, `stride` from one to the next, and each
+// column's fourth powers. What lies beyond a triangle's row in its last kWide is not to be used.
+[[gnu::always_inline]] inline void add_products(const WaitingRows& rows,
+                                                double* __restrict products,
+                                                double* __restrict fourth_powers) {
+  for (std::size_t j = 0; j < rows.columns; ++j) {
+    std::array<double, kTogether> whitened;
+    for (std::size_t k = 0; k < kTogether; ++k) {
+      const double value = rows.values[k * rows.stride + j];
+      whitened[k] = rows.weights[k] * value;
+      fourth_powers[j] += whitened[k] * value * (whitened[k] * value);
+    }
+    double* __restrict to = products + j * rows.stride;
+    const std::size_t end = (j / kWide + 1) * kWide;
+    for (std::size_t i = 0; i < end; ++i) {
+      double sum = to[i];
+      for (std::size_t k = 0; k < kTogether; ++k)
+        sum += whitened[k] * rows.values[k * rows.stride + i];
+      to[i] = sum;
+    }
+  }
+}
+using AddProducts = void (*)(const WaitingRows&, double*, double*);
+void add_products_anywhere(const WaitingRows& rows, double* products, double* fourth_powers) {
+  add_products(rows, products, fourth_powers);
+}
+#if defined(__x86_64__)
+[[gnu::target("avx2,fma")]] void add_products_wide(const WaitingRows& rows, double* products,
+                                                   double* fourth_powers) {
+  add_products(rows, products, fourth_powers);
+}
+#endif
+
+// What suits the processor at hand: a search spends an eighth of its time there.
+AddProducts fastest_add_products() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return add_products_wide;
+#endif
+  return add_products_anywhere;
+}
+
+// Adds up rows most of whose columns are zero. Those that are not stand beside each other, in the
+// order in which they came up, for as long as most of them go on being used.
 class RowSums {
  public:
   // The last columns are those of `effects` effects and the residual.
   RowSums(int columns, int effects)
-      : first_effect_(columns - 1 - effects), used_(static_cast<std::size_t>(columns)) {
-    values_.setZero(columns, kTogether);
-    weights_.setZero();
-  }
+      : first_effect_(columns - 1 - effects),
+        stride_((static_cast<std::size_t>(columns) + kWide - 1) / kWide * kWide),
+        places_(static_cast<std::size_t>(columns), -1),
+        values_(kTogether * stride_) {}
+  RowSums(RowSums&&) = default;  // Its values stay where they are.
+  RowSums(const RowSums&) = delete;
 
   // A value of the row that finish() ends.
   void set(int column, double value) {
     if (value == 0.0) return;
-    used_[static_cast<std::size_t>(column)] = 1;
-    values_(column, waiting_) = value;
+    const int place = places_[static_cast<std::size_t>(column)];
+    row_[place >= 0 ? place : new_place(column)] = value;
   }
   void finish(double weight) {
-    weights_(waiting_++) = weight;
+    weights_[waiting_++] = weight;
+    row_ += stride_;
     ++sums_.rows;
     if (waiting_ == kTogether) add_waiting();
   }
   ChannelSums sums() {
     if (waiting_ > 0) add_waiting();
+    if (sums_.rows > 0) pass_on();
     return std::move(sums_);
   }
 
  private:
-  static constexpr int kTogether = 8;  // Doubles: two to four vector registers.
-  struct Run {
-    Eigen::Index first, count;
-  };
+  [[gnu::noinline]] int new_place(int column) {
+    const auto place = static_cast<int>(columns_.size());
+    columns_.push_back(column);
+    places_[static_cast<std::size_t>(column)] = place;
+    return place;
+  }
 
-  // Columns that are not zero in all rows that wait, and few others.
-  void find_runs() {
-    constexpr Eigen::Index kGap = 4;  // Zeros that cost less than another run.
-    runs_.clear();
-    for (Eigen::Index c = 0; c < values_.rows(); ++c) {
-      if (used_[static_cast<std::size_t>(c)] == 0) continue;
-      if (runs_.empty() || c > runs_.back().first + runs_.back().count + kGap)
-        runs_.push_back({c, 0});
-      runs_.back().count = c + 1 - runs_.back().first;
+  // How many columns rows that wait use.
+  [[nodiscard]] std::size_t used() const {
+    std::size_t out = 0;
+    for (std::size_t j = 0; j < columns_.size(); ++j) {
+      bool any = false;
+      for (std::size_t k = 0; k < kTogether; ++k) any |= values_[k * stride_ + j] != 0.0;
+      out += any ? 1 : 0;
     }
+    return out;
   }
 
   void add_waiting() {
-    if (sums_.products.size() == 0) {
-      sums_.products.setZero(values_.rows(), values_.rows());
-      sums_.fourth_powers.setZero(values_.rows() - 1 - first_effect_);
+    const std::size_t count = columns_.size();
+    // Passing sums on costs about as much as adding rows.
+    const std::size_t in_use = used();
+    const bool last = count > in_use + in_use / 4 + kWide;
+    if (products_.empty()) {
+      products_.resize(stride_ * stride_);
+      fourth_powers_.resize(stride_);
     }
-    find_runs();
-    for (const Run& run : runs_) {
-      for (Eigen::Index a = run.first; a < run.first + run.count; ++a) add_column(a);
-    }
-    for (const Run& run : runs_) values_.middleRows(run.first, run.count).setZero();
-    std::fill(used_.begin(), used_.end(), 0);
-    weights_.setZero();
+    add_products_({values_.data(), stride_, count, weights_.data()}, products_.data(),
+                  fourth_powers_.data());
+    for (std::size_t k = 0; k < kTogether; ++k) std::fill_n(&values_[k * stride_], count, 0.0);
+    weights_.fill(0.0);
     waiting_ = 0;
+    row_ = values_.data();
+    if (last) pass_on();
   }
 
-  void add_column(Eigen::Index a) {
-    const Together whitened = weights_.cwiseProduct(values_.row(a).transpose());
-    for (const Run& run : runs_) {
-      const Eigen::Index count = std::min(run.count, a + 1 - run.first);
-      if (count <= 0) break;
-      sums_.products.col(a).segment(run.first, count) +=
-          values_.middleRows(run.first, count).lazyProduct(whitened);
+  // Adds the sums to those of all columns and starts again.
+  void pass_on() {
+    const auto size = static_cast<Eigen::Index>(places_.size());
+    if (sums_.products.size() == 0) {
+      sums_.products.setZero(size, size);
+      sums_.fourth_powers.setZero(size - 1 - first_effect_);
     }
-    const Eigen::Index effect = a - first_effect_;
-    if (effect >= 0 && effect < sums_.fourth_powers.size())
-      sums_.fourth_powers(effect) +=
-          whitened.cwiseProduct(values_.row(a).transpose()).squaredNorm();
+    for (std::size_t j = 0; j < columns_.size(); ++j) {
+      double* const products = &products_[j * stride_];
+      for (std::size_t i = 0; i <= j; ++i) {
+        const auto [row, column] = std::minmax(columns_[i], columns_[j]);
+        sums_.products(row, column) += products[i];
+      }
+      std::fill_n(products, (j / kWide + 1) * kWide, 0.0);
+      const int effect = columns_[j] - first_effect_;
+      if (effect >= 0 && effect < sums_.fourth_powers.size())
+        sums_.fourth_powers(effect) += fourth_powers_[j];
+      fourth_powers_[j] = 0.0;
+      places_[static_cast<std::size_t>(columns_[j])] = -1;
+    }
+    columns_.clear();
   }
 
-  using Together = Eigen::Matrix<double, kTogether, 1>;
-  Eigen::Index first_effect_;
-  std::vector<char> used_;
-  Eigen::Matrix<double, Eigen::Dynamic, kTogether> values_;  // Rows that wait are its columns.
-  Together weights_;
-  int waiting_ = 0;
-  std::vector<Run> runs_;
+  int first_effect_;
+  std::size_t stride_;
+  std::vector<int> places_;     // Of all columns among those in use; −1: not in use.
+  std::vector<int> columns_;    // In use, in their places.
+  std::vector<double> values_;  // Of rows that wait.
+  std::array<double, kTogether> weights_{};
+  std::size_t waiting_ = 0;
+  double* row_ = values_.data();                  // That of the row at hand.
+  std::vector<double> products_, fourth_powers_;  // Of columns in use, not passed on yet.
   ChannelSums sums_;
+  AddProducts add_products_ = fastest_add_products();
 };
 
 int index_in(const std::vector<int>& list, int value) {
@@ -207,24 +281,25 @@ PartRows rows_of(const MeasurementTable& table, int scene, const ChannelMask& ch
 // Accumulates rows of one scene.
 class SceneAccumulator {
  public:
-  SceneAccumulator(const MeasurementTable& table, const ModelState& state,
-                   const std::vector<EffectInUse>& in_use, const EffectColumnsList& columns,
+  // The model must outlive it.
+  SceneAccumulator(const FittedModel& model, const EffectColumnsList& columns,
                    const LocalLayout& layout, std::size_t scene, PrintMemory* memory)
-      : table_(table),
+      : table_(model.table),
         memory_(memory),
         scene_(static_cast<int>(scene)),
-        geometry_(state.camera_from_lidar, state.camera_from_board[scene]),
-        camera_from_board_(state.camera_from_board[scene]),
+        geometry_(model.state.camera_from_lidar, model.state.camera_from_board[scene]),
+        camera_from_board_(model.state.camera_from_board[scene]),
         rotation_(geometry_.lidar_from_board().rotation.toRotationMatrix()),
-        in_use_(in_use),
-        in_use_columns_(columns_in_use(in_use, table)),
-        used_rows_(table, in_use_columns_.list()),
-        told_(columns_of_effects_in_use(columns.list(), in_use)),
-        candidate_rows_(table, std::span(columns.list()).subspan(told_)),
-        corner_rows_(table, columns.list()),
+        in_use_(model.effects),
+        in_use_columns_(columns_in_use(model.effects, model.table)),
+        used_rows_(model.table, in_use_columns_.list()),
+        told_(columns_of_effects_in_use(columns.list(), model.effects)),
+        candidate_rows_(model.table, std::span(columns.list()).subspan(told_)),
+        corner_rows_(model.table, columns.list()),
         // Others than those in use may let black grow.
-        print_(table, state, scene, in_use, columns.list().size() > in_use.size()),
-        log_contrast_(log_contrast(state.levels[scene])),
+        print_(model.table, model.state, scene, model.effects,
+               columns.list().size() > model.effects.size()),
+        log_contrast_(log_contrast(model.state.levels[scene])),
         layout_(layout),
         extrinsic_(layout.size()),
         effects_(extrinsic_ + 6),
@@ -536,6 +611,9 @@ std::pair<int, int> LocalLayout::columns_of(VarianceGroup group) const {
 }
 
 PrintMemory::PrintMemory(const MeasurementTable& table) {
+  range.reserve(table.range.size());
+  boundary.reserve(table.boundary.size());
+  intensity.reserve(table.intensity.size());
   for (const RangeRow& row : table.range) range.push_back(row.seen);
   for (const BoundaryRow& row : table.boundary) boundary.push_back(row.reading.seen);
   for (const IntensityRow& row : table.intensity) intensity.push_back(row.reading.seen);
@@ -543,8 +621,8 @@ PrintMemory::PrintMemory(const MeasurementTable& table) {
 
 Linearization linearize(const MeasurementTable& table, const ModelState& state,
                         const std::vector<EffectInUse>& in_use, const EffectColumnsList& columns,
-                        const RunContext& context, const ChannelMask& channels,
-                        PrintMemory* memory) {
+                        const RunContext& context, const RowsTaken& rows) {
+  const FittedModel model{table, state, in_use};
   Linearization out;
   out.columns = columns;
   out.scenes.resize(table.scenes.size());
@@ -554,7 +632,7 @@ Linearization linearize(const MeasurementTable& table, const ModelState& state,
   }
   std::vector<Task> tasks;
   for (std::size_t s = 0; s < out.scenes.size(); ++s)
-    add_tasks(s, rows_of(table, static_cast<int>(s), channels), tasks);
+    add_tasks(s, rows_of(table, static_cast<int>(s), rows.channels), tasks);
   // The longest first, so that all threads end together.
   std::vector<std::size_t> order(tasks.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -564,9 +642,9 @@ Linearization linearize(const MeasurementTable& table, const ModelState& state,
   parallel_for(tasks.size(), context.thread_count(), [&](std::size_t k) {
     Task& task = tasks[order[k]];
     if (context.stopped()) return;
-    task.sums = SceneAccumulator(table, state, in_use, columns, out.scenes[task.scene].layout,
-                                 task.scene, memory)
-                    .sums_of(task.rows);
+    task.sums =
+        SceneAccumulator(model, columns, out.scenes[task.scene].layout, task.scene, rows.memory)
+            .sums_of(task.rows);
   });
   for (Task& task : tasks) add(std::move(task.sums), out.scenes[task.scene]);
   parallel_for(out.scenes.size(), context.thread_count(), [&](std::size_t s) {

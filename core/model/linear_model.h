@@ -144,13 +144,18 @@ struct PrintMemory {
   std::vector<LocalPrint> range, boundary, intensity;
 };
 
+/// Which rows a linearisation takes.
+struct RowsTaken {
+  ChannelMask channels = kEveryChannel;  ///< Those left out stay zero.
+  /// Of the same table: used and brought up to date; null: the table's own.
+  PrintMemory* memory = nullptr;
+};
+
 /// Computes the cross products; scenes in parallel. Cost is linear in rows and in the number of
-/// effects that act on a row. Channels left out stay zero. Stops early (empty scenes) when asked
-/// to. `memory`, of the same table: used and brought up to date; null: the table's own.
+/// effects that act on a row. Stops early (empty scenes) when asked to.
 Linearization linearize(const MeasurementTable& table, const ModelState& state,
                         const std::vector<EffectInUse>& in_use, const EffectColumnsList& columns,
-                        const RunContext& context, const ChannelMask& channels = kEveryChannel,
-                        PrintMemory* memory = nullptr);
+                        const RunContext& context, const RowsTaken& rows = {});
 
 /// The linearisation of some of its effects alone, by their places in its list, in this order.
 Linearization picked(const Linearization& linear, const std::vector<std::size_t>& effects);

@@ -6,6 +6,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "base/parallel.h"
+
 namespace lvcalib {
 namespace {
 
@@ -119,12 +121,13 @@ struct GatheredScene {
 };
 
 std::vector<GatheredScene> gather_scenes(const Linearization& linear, const ColumnSubset& subset,
-                                         const ModelVariances& variances) {
-  std::vector<GatheredScene> out;
-  for (const SceneProducts& scene : linear.scenes) {
+                                         const ModelVariances& variances, int threads) {
+  std::vector<GatheredScene> out(linear.scenes.size());
+  parallel_for(out.size(), threads, [&](std::size_t s) {
+    const SceneProducts& scene = linear.scenes[s];
     const Columns columns = columns_of(scene, subset, variances, Locals::kPresent);
-    out.push_back({columns, gather(scene, columns), scene.rows});
-  }
+    out[s] = {columns, gather(scene, columns), scene.rows};
+  });
   return out;
 }
 
@@ -164,6 +167,7 @@ struct Eliminated {
   SceneTerm term;
   Blocks blocks;
   Eigen::LLT<Eigen::MatrixXd> factor;  // Of the local block.
+  Eigen::MatrixXd by_globals;          // Solved for the cross block.
 };
 
 Eliminated eliminate(const GatheredScene& scene, const ModelVariances& variances, std::size_t s) {
@@ -175,7 +179,7 @@ Eliminated eliminate(const GatheredScene& scene, const ModelVariances& variances
   }
   Eigen::LLT<Eigen::MatrixXd> llt(b.local);
   SceneTerm term;
-  const Eigen::MatrixXd x = llt.solve(b.cross);
+  Eigen::MatrixXd x = llt.solve(b.cross);
   const Eigen::VectorXd y = llt.solve(b.local_gradient);
   term.information = b.global - b.cross.transpose() * x;
   term.gradient = b.global_gradient - b.cross.transpose() * y;
@@ -183,20 +187,22 @@ Eliminated eliminate(const GatheredScene& scene, const ModelVariances& variances
                   llt.matrixL().toDenseMatrix().diagonal().array().log().sum();
   for (std::size_t c = 0; c < kChannels; ++c)
     term.constant -= 0.5 * scene.rows[c] * std::log(variances.channel_of(s)[c]);
-  return {std::move(term), std::move(b), std::move(llt)};
+  return {std::move(term), std::move(b), std::move(llt), std::move(x)};
 }
 
 // Solves for everything linear at the variances in `fit`. Returns the scenes as they were
 // eliminated.
-std::vector<Eliminated> solve(const std::vector<GatheredScene>& scenes, ModelFit& fit) {
+std::vector<Eliminated> solve(const std::vector<GatheredScene>& scenes, int threads,
+                              ModelFit& fit) {
   fit.scenes.clear();
-  std::vector<Eliminated> out;
+  std::vector<Eliminated> out(scenes.size());
+  parallel_for(scenes.size(), threads,
+               [&](std::size_t s) { out[s] = eliminate(scenes[s], fit.variances, s); });
   Eigen::MatrixXd information = fit.prior.information;
   Eigen::VectorXd gradient = fit.prior.gradient;
   double constant = fit.prior.constant;
-  for (std::size_t s = 0; s < scenes.size(); ++s) {
-    out.push_back(eliminate(scenes[s], fit.variances, s));
-    fit.scenes.push_back(std::move(out.back().term));
+  for (Eliminated& scene : out) {
+    fit.scenes.push_back(std::move(scene.term));
     information += fit.scenes.back().information;
     gradient += fit.scenes.back().gradient;
     constant += fit.scenes.back().constant;
@@ -221,15 +227,25 @@ struct VarianceSums {
   std::array<double, kVarianceGroups> determined{};
   std::array<double, kChannels> residual{};
   std::array<double, kChannels> freedom{};
+  void add(const VarianceSums& other) {
+    const auto add_to = [](auto& to, const auto& from) {
+      for (std::size_t k = 0; k < to.size(); ++k) to[k] += from[k];
+    };
+    add_to(squares, other.squares);
+    add_to(determined, other.determined);
+    add_to(residual, other.residual);
+    add_to(freedom, other.freedom);
+  }
 };
 
-void collect(const GatheredScene& scene, const Eliminated& eliminated, const ModelFit& fit,
-             std::size_t s, VarianceSums& sums) {
+VarianceSums sums_of(const GatheredScene& scene, const Eliminated& eliminated, const ModelFit& fit,
+                     std::size_t s) {
+  VarianceSums sums;
   const Columns& at = scene.columns;
   const Eigen::Index n = at.locals;
   const Eigen::Index g = at.globals;
   // Covariance of local and global unknowns together.
-  const Eigen::MatrixXd x = eliminated.factor.solve(eliminated.blocks.cross);
+  const Eigen::MatrixXd& x = eliminated.by_globals;
   Eigen::MatrixXd covariance(n + g, n + g);
   covariance.topRightCorner(n, g).noalias() = -x * fit.covariance;
   covariance.bottomLeftCorner(g, n) = covariance.topRightCorner(n, g).transpose();
@@ -251,6 +267,7 @@ void collect(const GatheredScene& scene, const Eliminated& eliminated, const Mod
     const double used = covariance.cwiseProduct(m.topLeftCorner(n + g, n + g)).sum();
     sums.freedom[c] += scene.rows[c] - used / fit.variances.channel_of(s)[c];
   }
+  return sums;
 }
 
 // Returns the largest move of a log-variance.
@@ -288,21 +305,20 @@ ModelFit fit_at_start(const ColumnSubset& subset, const ModelVariances& variance
 // with few of them takes what all have.
 std::vector<ChannelVariances> scene_variances(const Linearization& linear,
                                               const ColumnSubset& subset,
-                                              const ModelVariances& variances) {
+                                              const ModelVariances& variances, int threads) {
   constexpr double kFewest = 20.0;  // A variance from fewer is known to a third at best, √(2/n).
-  const std::vector<GatheredScene> scenes = gather_scenes(linear, subset, variances);
+  const std::vector<GatheredScene> scenes = gather_scenes(linear, subset, variances, threads);
   ModelFit fit = fit_at_start(subset, variances);
-  const std::vector<Eliminated> eliminated = solve(scenes, fit);
+  const std::vector<Eliminated> eliminated = solve(scenes, threads, fit);
   std::vector<ChannelVariances> out(scenes.size(), variances.channel);
-  for (std::size_t s = 0; s < scenes.size(); ++s) {
-    VarianceSums sums;
-    collect(scenes[s], eliminated[s], fit, s, sums);
+  parallel_for(scenes.size(), threads, [&](std::size_t s) {
+    const VarianceSums sums = sums_of(scenes[s], eliminated[s], fit, s);
     for (std::size_t c = 0; c < kChannels; ++c) {
       if (sums.freedom[c] >= kFewest)
         out[s][c] = std::clamp(sums.residual[c] / sums.freedom[c], 0.05, 1e4);
       out[s][c] *= linear.scenes[s].inflation[c];
     }
-  }
+  });
   return out;
 }
 
@@ -361,14 +377,18 @@ void append_columns(const EffectColumns& columns, const Eigen::VectorXd* in_use,
 
 ModelFit fit_model(const Linearization& linear, const ColumnSubset& subset,
                    const ModelVariances& start, const MixedModelOptions& options) {
-  const std::vector<GatheredScene> scenes = gather_scenes(linear, subset, start);
+  const int threads = options.threads;
+  const std::vector<GatheredScene> scenes = gather_scenes(linear, subset, start, threads);
   ModelFit fit = fit_at_start(subset, start);
-  std::vector<Eliminated> eliminated = solve(scenes, fit);
+  std::vector<Eliminated> eliminated = solve(scenes, threads, fit);
   for (int round = 0; round < options.rounds; ++round) {
+    std::vector<VarianceSums> parts(scenes.size());
+    parallel_for(scenes.size(), threads,
+                 [&](std::size_t s) { parts[s] = sums_of(scenes[s], eliminated[s], fit, s); });
     VarianceSums sums;
-    for (std::size_t s = 0; s < scenes.size(); ++s) collect(scenes[s], eliminated[s], fit, s, sums);
+    for (const VarianceSums& part : parts) sums.add(part);
     const double change = update_variances(sums, options.estimated, fit.variances);
-    eliminated = solve(scenes, fit);
+    eliminated = solve(scenes, threads, fit);
     if (change < options.tolerance) break;
   }
   return fit;
@@ -382,34 +402,36 @@ bool moves_boards(const ModelVariances& variances) {
 }
 
 StatedVariances stated_variances(const Linearization& linear, const ColumnSubset& subset,
-                                 const ModelVariances& variances) {
+                                 const ModelVariances& variances, int threads) {
   StatedVariances out{variances, variances};
-  out.weights.scene_channel = scene_variances(linear, subset, variances);
+  out.weights.scene_channel = scene_variances(linear, subset, variances, threads);
   for (const VarianceGroup group : kBoardMotions) {
     const auto k = static_cast<std::size_t>(group);
     out.weights.group[k] = kAbsentVariance[k];
   }
-  out.weights = fit_model(linear, subset, out.weights, {}).variances;
+  out.weights = fit_model(linear, subset, out.weights, {.threads = threads}).variances;
   out.motion = out.weights;
   for (const VarianceGroup group : kBoardMotions) {
     const auto k = static_cast<std::size_t>(group);
     out.motion.group[k] = variances.group[k];
   }
   if (moves_boards(variances)) {
-    out.motion = fit_model(linear, subset, out.motion, {.estimated = Estimated::kBoards}).variances;
+    out.motion =
+        fit_model(linear, subset, out.motion, {.estimated = Estimated::kBoards, .threads = threads})
+            .variances;
   }
   return out;
 }
 
 ModelFit fit_stated(const Linearization& linear, const ColumnSubset& subset,
-                    const StatedVariances& variances) {
-  ModelFit fit = fit_model(linear, subset, variances.weights, {.rounds = 0});
+                    const StatedVariances& variances, int threads) {
+  ModelFit fit = fit_model(linear, subset, variances.weights, {.rounds = 0, .threads = threads});
   if (!moves_boards(variances.motion)) return fit;
-  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(fit.covariance.rows(), fit.covariance.cols());
-  for (std::size_t s = 0; s < linear.scenes.size(); ++s) {
+  parallel_for(fit.scenes.size(), threads, [&](std::size_t s) {
     fit.scenes[s].spread = board_spread(linear, s, subset, variances.motion);
-    spread += fit.scenes[s].spread;
-  }
+  });
+  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(fit.covariance.rows(), fit.covariance.cols());
+  for (const SceneTerm& scene : fit.scenes) spread += scene.spread;
   fit.covariance += (fit.covariance * spread * fit.covariance).eval();
   return fit;
 }
@@ -434,18 +456,20 @@ Linearization stepped(Linearization linear, const ModelFit& fit) {
 }
 
 double misfit(const Linearization& linear, const ColumnSubset& subset,
-              const ModelVariances& variances) {
-  double out = 0.0;
-  for (std::size_t k = 0; k < subset.columns.size(); ++k)
-    out += std::pow(subset.prior_mean[k] / subset.prior_sigma[k], 2);
-  for (std::size_t s = 0; s < linear.scenes.size(); ++s) {
+              const ModelVariances& variances, int threads) {
+  std::vector<double> scenes(linear.scenes.size());
+  parallel_for(scenes.size(), threads, [&](std::size_t s) {
     const Columns at = columns_of(linear.scenes[s], subset, variances, Locals::kPresent);
     const Blocks b = blocks_of(gather(linear.scenes[s], at), at, variances, s);
     const Eigen::Index random = b.local.rows() - LocalLayout::kFixed;
     const Eigen::VectorXd gradient = b.local_gradient.tail(random);
-    out +=
+    scenes[s] =
         b.squares - gradient.dot(b.local.bottomRightCorner(random, random).llt().solve(gradient));
-  }
+  });
+  double out = 0.0;
+  for (std::size_t k = 0; k < subset.columns.size(); ++k)
+    out += std::pow(subset.prior_mean[k] / subset.prior_sigma[k], 2);
+  for (const double scene : scenes) out += scene;
   return out;
 }
 
@@ -461,10 +485,10 @@ SceneTerm scene_term(const SceneProducts& products, const ColumnSubset& subset,
 }
 
 std::array<GroupScore, kVarianceGroups> group_scores(const Linearization& linear,
-                                                     const ModelFit& fit) {
-  std::array<GroupScore, kVarianceGroups> out{};
-  std::array<double, kVarianceGroups> second{};
-  for (std::size_t s = 0; s < linear.scenes.size(); ++s) {
+                                                     const ModelFit& fit, int threads) {
+  // Of each scene; `effective`: the sum that all scenes' is made of.
+  std::vector<std::array<GroupScore, kVarianceGroups>> scores(linear.scenes.size());
+  parallel_for(scores.size(), threads, [&](std::size_t s) {
     const SceneProducts& scene = linear.scenes[s];
     const Columns at = columns_of(scene, fit.subset, fit.variances, Locals::kAll);
     const Blocks b = blocks_of(gather(scene, at), at, fit.variances, s);
@@ -482,13 +506,18 @@ std::array<GroupScore, kVarianceGroups> group_scores(const Linearization& linear
       const Eigen::MatrixXd rows = x.middleRows(first, count);
       const Eigen::MatrixXd told = Eigen::MatrixXd::Identity(count, count) -
                                    (own + rows * fit.covariance * rows.transpose()) / v;
-      out[k].squares += local.segment(first, count).squaredNorm();
-      out[k].determined += told.trace();
-      second[k] += told.squaredNorm();
+      scores[s][k] = {local.segment(first, count).squaredNorm(), told.trace(), told.squaredNorm()};
     }
-  }
+  });
+  std::array<GroupScore, kVarianceGroups> out{};
   for (std::size_t k = 0; k < kVarianceGroups; ++k) {
-    if (second[k] > 0.0) out[k].effective = out[k].determined * out[k].determined / second[k];
+    double second = 0.0;
+    for (const auto& scene : scores) {
+      out[k].squares += scene[k].squares;
+      out[k].determined += scene[k].determined;
+      second += scene[k].effective;
+    }
+    if (second > 0.0) out[k].effective = out[k].determined * out[k].determined / second;
   }
   return out;
 }

@@ -75,6 +75,7 @@ struct MixedModelOptions {
   int rounds = 12;          ///< Re-estimations of the variances.
   double tolerance = 0.02;  ///< Done when no log-variance moves by more.
   Estimated estimated = Estimated::kAll;
+  int threads = 1;  ///< Scenes are shared among them; results are the same for any number.
 };
 
 /// Fits extrinsic, poses, levels, effect columns and random effects, and re-estimates all variances
@@ -97,12 +98,12 @@ struct StatedVariances {
 /// From the variances of a search; groups that are not held absent are estimated again under the
 /// weights, then motions of boards with all else as it is.
 StatedVariances stated_variances(const Linearization& linear, const ColumnSubset& subset,
-                                 const ModelVariances& variances);
+                                 const ModelVariances& variances, int threads = 1);
 /// The fit by the weights, in which motions of whole boards widen the covariance instead,
 /// A⁻¹(A + S)A⁻¹ with A the information and S the spread. The log-likelihood is that without
 /// motions.
 ModelFit fit_stated(const Linearization& linear, const ColumnSubset& subset,
-                    const StatedVariances& variances);
+                    const StatedVariances& variances, int threads = 1);
 
 /// The linearisation about where a fit of it leads, to first order: extrinsic, boards, levels and
 /// the subset's columns moved by the solution. Residuals change, derivatives stay.
@@ -112,7 +113,7 @@ Linearization stepped(Linearization linear, const ModelFit& fit);
 /// the random effects fitted: minus twice the log-posterior up to a constant of the variances. What
 /// a step of Gauss and Newton has to lower.
 double misfit(const Linearization& linear, const ColumnSubset& subset,
-              const ModelVariances& variances);
+              const ModelVariances& variances, int threads = 1);
 
 /// What a scene's rows would say about extrinsic and columns with given variances; for scenes that
 /// are only planned. Their residuals may be anything: only `information` is of use.
@@ -128,7 +129,7 @@ struct GroupScore {
   double effective = 0.0;
 };
 std::array<GroupScore, kVarianceGroups> group_scores(const Linearization& linear,
-                                                     const ModelFit& fit);
+                                                     const ModelFit& fit, int threads = 1);
 
 /// Log of the density that the other scenes predict for a scene, given the fit's variances.
 double predictive_log_density(const ModelFit& fit, std::size_t scene);

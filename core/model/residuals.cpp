@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "model/effect_rows.h"
+#include "model/fitted_model.h"
 #include "model/print_rows.h"
 #include "model/scene_geometry.h"
 
@@ -30,9 +31,8 @@ struct Measured {
 // Rows of a channel that see the print, scene by scene in parts of even length on all threads.
 // `predict` gives what is measured of a row.
 template <class Row, class Predict>
-void push_print(const MeasurementTable& table, const ModelState& state,
-                const std::vector<EffectInUse>& in_use, const std::vector<Row>& rows,
-                const RunContext& context, const Predict& predict, ChannelResiduals& out) {
+void push_print(const FittedModel& model, const std::vector<Row>& rows, const RunContext& context,
+                const Predict& predict, ChannelResiduals& out) {
   constexpr std::size_t kPart = 4096;  // Some milliseconds of work, far above what a thread costs.
   std::vector<std::size_t> starts;
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -45,7 +45,7 @@ void push_print(const MeasurementTable& table, const ModelState& state,
     if (context.stopped()) return;
     const std::size_t end = part + 1 < starts.size() ? starts[part + 1] : rows.size();
     const int scene = rows[starts[part]].beam.scene;
-    PrintRows print(table, state, static_cast<std::size_t>(scene), in_use);
+    PrintRows print(model.table, model.state, static_cast<std::size_t>(scene), model.effects);
     for (std::size_t k = starts[part]; k < end; ++k) {
       const Measured measured = predict(print, rows[k]);
       if (!measured.row) continue;
@@ -100,7 +100,7 @@ ChannelResiduals residuals_of(const MeasurementTable& table, const ModelState& s
   ChannelResiduals out;
   out.channel = channel;
   const auto fill = [&](const auto& rows, const auto& predict) {
-    push_print(table, state, in_use, rows, context, predict, out);
+    push_print({table, state, in_use}, rows, context, predict, out);
   };
   switch (channel) {
     case Channel::kCorner:

@@ -35,7 +35,7 @@ BoardImage look_at_image(const std::filesystem::path& path, const Target& target
 Result<std::vector<BoardImage>> look_at_images(
     const std::vector<std::filesystem::path>& paths, const Target& target,
     const std::function<Camera(int width_px, int height_px)>& camera_for,
-    const DetectionOptions& options, const RunContext& context, double first, double last) {
+    const DetectionOptions& options, const RunContext& context, ProgressShare share) {
   std::vector<BoardImage> out(paths.size());
   RunContext quiet = context;
   quiet.progress = {};
@@ -49,8 +49,8 @@ Result<std::vector<BoardImage>> look_at_images(
     out[k] = look_at_image(paths[k], target, camera_for, options, quiet);
     const std::lock_guard lock(mutex);
     ++done;
-    context.report("detect",
-                   first + (last - first) * static_cast<double>(done) / static_cast<double>(count),
+    const double part = static_cast<double>(done) / static_cast<double>(count);
+    context.report("detect", share.first + (share.last - share.first) * part,
                    Message::verbatim(paths[k].filename().string()));
   });
   if (context.stopped()) return Error::cancelled();

@@ -30,12 +30,16 @@ BoardImage look_at_image(const std::filesystem::path& path, const Target& target
                          const std::function<Camera(int width_px, int height_px)>& camera_for,
                          const DetectionOptions& options, const RunContext& context);
 
-/// The same for many images, on the context's threads. The only error is kCancelled. Progress goes
-/// from `first` to `last`.
+/// The part of a whole work's progress that a work takes.
+struct ProgressShare {
+  double first = 0.0, last = 1.0;
+};
+
+/// The same for many images, on the context's threads. The only error is kCancelled.
 Result<std::vector<BoardImage>> look_at_images(
     const std::vector<std::filesystem::path>& paths, const Target& target,
     const std::function<Camera(int width_px, int height_px)>& camera_for,
-    const DetectionOptions& options, const RunContext& context, double first, double last);
+    const DetectionOptions& options, const RunContext& context, ProgressShare share);
 
 /// Whether two views hold the same corners, of one image that is there twice (copied, or written
 /// again with a bit changed): they differ by less than a tenth of what their own noise makes of two

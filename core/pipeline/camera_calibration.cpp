@@ -329,7 +329,7 @@ Result<CameraCalibration> calibrate_camera(const std::vector<std::filesystem::pa
     };
     constexpr int kUsualWidth_px = 1500;
     auto first = look_at_images(paths, target, guess, tolerant(options.detection, kUsualWidth_px),
-                                context, 0.0, 0.4);
+                                context, {0.0, 0.4});
     if (!first) return first.error();
     if (Status s = check_sizes(*first, options.start); !s) return s.error();
     const auto rough = calibrate_camera(std::move(*first), options, context);
@@ -338,8 +338,8 @@ Result<CameraCalibration> calibrate_camera(const std::vector<std::filesystem::pa
   }
   context.report("detect", 0.5, Message("with the camera found"));
   const Camera& camera = *how.start;
-  auto images = look_at_images(
-      paths, target, [&](int, int) { return camera; }, options.detection, context, 0.5, 0.9);
+  auto images = look_at_images(paths, target, [&](int, int) { return camera; }, options.detection,
+                               context, {0.5, 0.9});
   if (!images) return images.error();
   if (Status s = check_sizes(*images, options.start); !s) return s.error();
   context.report("optimize", 0.9, Message("bundle adjustment"));

@@ -171,14 +171,21 @@ Result<ExtrinsicSolution> solve_with_insisted(CalibrationResult& result, const T
   return solve_extrinsic({observations, result.camera, target, options});
 }
 
+// What nodes and planes were solved from, how, and what came out.
+struct NodesSolved {
+  std::vector<SceneObservations>& observations;
+  ExtrinsicOptions& options;
+  ExtrinsicSolution& nodes;
+};
+
 // Circles that few lines cross are found beside their places, and put the whole extrinsic so far
 // off that sound scenes contradict it. What nodes and planes have against scenes is therefore asked
-// of every corner and return, with these scenes in: those that agree stay, `observations` and
-// `options` become what was solved. Without returns that tell, the nodes' verdict stands.
+// of every corner and return, with these scenes in: those that agree stay, and `solved` becomes
+// what was solved then. Without returns that tell, the nodes' verdict stands.
 Status reconsider_scenes(CalibrationResult& result, const Target& target,
-                         const std::vector<std::size_t>& index,
-                         std::vector<SceneObservations>& observations, ExtrinsicOptions& options,
-                         ExtrinsicSolution& nodes, const RunContext& context) {
+                         const std::vector<std::size_t>& index, const NodesSolved& solved,
+                         const RunContext& context) {
+  auto& [observations, options, nodes] = solved;
   std::vector<std::size_t> suspects;
   for (std::size_t k = 0; k < observations.size(); ++k) {
     if (observations[k].use && !nodes.scenes[k].used) suspects.push_back(k);
@@ -285,7 +292,7 @@ Result<CalibrationResult> resolve_calibration(CalibrationResult result,
     if (!solution) return not_solvable(std::move(solution).error(), result);
     nodes = std::move(*solution);
     if (Status s =
-            reconsider_scenes(result, target, index, observations, extrinsic, nodes, context);
+            reconsider_scenes(result, target, index, {observations, extrinsic, nodes}, context);
         !s)
       return s.error();
     if (Status s = solve_forward_model(result, {observations, result.camera, target, extrinsic},

@@ -222,10 +222,15 @@ RunContext part_of(const RunContext& context, double before, double after) {
   return out;
 }
 
+std::optional<Camera> camera_of(const RecordingSurvey& survey, const ImportOptions& options) {
+  return options.camera ? options.camera : survey.camera;
+}
+
 // Writes the scenes of the stretches that are taken; those that turn out to be unusable are left.
 Status write_scenes(const Recording& recording, const RecordingSurvey& survey,
-                    const ImportOptions& options, const std::optional<Camera>& camera,
-                    const fs::path& folder, const RunContext& context, ImportSummary& out) {
+                    const ImportOptions& options, const fs::path& folder, const RunContext& context,
+                    ImportSummary& out) {
+  const std::optional<Camera> camera = camera_of(survey, options);
   const auto stretches = choose_stretches(recording, survey, options);
   if (!stretches) return stretches.error();
   const SceneWriter writer(recording, survey, options, context);
@@ -265,9 +270,9 @@ Result<ImportSummary> import_into(UnfinishedFolder& folder, const Recording& rec
   out.cloud_topic = name(survey.topics.cloud);
   if (survey.topics.info) out.info_topic = name(*survey.topics.info);
   out.length_s = 1e-9 * static_cast<double>(recording.span().last_ns - recording.span().first_ns);
-  const std::optional<Camera> camera = options.camera ? options.camera : survey.camera;
+  const std::optional<Camera> camera = camera_of(survey, options);
   out.has_camera = camera.has_value();
-  if (Status s = write_scenes(recording, survey, options, camera, folder.path(), context, out); !s)
+  if (Status s = write_scenes(recording, survey, options, folder.path(), context, out); !s)
     return s.error();
   judge_guessed_board(folder.path(), out);
   for (const ImportedStretch& stretch : out.stretches) {

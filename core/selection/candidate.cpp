@@ -11,6 +11,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
 
+#include "base/parallel.h"
 #include "base/statistics.h"
 
 namespace lvcalib {
@@ -150,10 +151,11 @@ std::array<double, kChannels> row_counts(const Linearization& linear) {
 }
 
 std::vector<std::array<double, kChannels>> heldout_squares(const Linearization& linear,
-                                                           const ModelFit& fit) {
-  std::vector<std::array<double, kChannels>> out;
-  for (std::size_t s = 0; s < linear.scenes.size(); ++s)
-    out.push_back(squares_at(linear, s, fit.subset, solution_without(fit, s), fit.variances));
+                                                           const ModelFit& fit, int threads) {
+  std::vector<std::array<double, kChannels>> out(linear.scenes.size());
+  parallel_for(out.size(), threads, [&](std::size_t s) {
+    out[s] = squares_at(linear, s, fit.subset, solution_without(fit, s), fit.variances);
+  });
   return out;
 }
 
@@ -209,7 +211,7 @@ Reference make_reference(const Linearization& linear, const ColumnSubset& subset
   out.fit = fit_model(linear, subset, start, options);
   for (std::size_t s = 0; s < linear.scenes.size(); ++s)
     out.density.push_back(predictive_log_density(out.fit, s));
-  out.heldout = heldout_squares(linear, out.fit);
+  out.heldout = heldout_squares(linear, out.fit, options.threads);
   return out;
 }
 
@@ -228,7 +230,7 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
   out.beyond_possible = beyond_possible(c, out.fit);
   std::array<double, kChannels> with{};
   std::array<double, kChannels> without{};
-  const auto heldout = heldout_squares(linear, out.fit);
+  const auto heldout = heldout_squares(linear, out.fit, options.threads);
   for (std::size_t s = 0; s < linear.scenes.size(); ++s) {
     out.scene_density.push_back(predictive_log_density(out.fit, s));
     out.scene_gain.push_back(out.scene_density[s] - reference.density[s]);

@@ -74,7 +74,7 @@ std::array<double, kChannels> row_counts(const Linearization& linear);
 
 /// Held-out squares of every scene from the solution without it.
 std::vector<std::array<double, kChannels>> heldout_squares(const Linearization& linear,
-                                                           const ModelFit& fit);
+                                                           const ModelFit& fit, int threads = 1);
 
 /// A scene held out: the squares that are left of each channel, over σ², of how many rows, and the
 /// sum of these rows' 1/σ².

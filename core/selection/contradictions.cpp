@@ -117,7 +117,7 @@ bool EffectSearch::stands_in(const Candidate& candidate, Channel channel,
   append_columns(columns.list()[own_count() + 1], nullptr, subset);
   const Linearization linear = linearized(model(), columns);
   if (context_.stopped()) return false;
-  const ModelFit fit = fit_model(linear, subset, variances_, {.rounds = 3});
+  const ModelFit fit = fit_model(linear, subset, variances_, how(3));
   return f_test(fit, tried.count()) * static_cast<double>(candidates_.size()) >
          options_->false_alarm;
 }

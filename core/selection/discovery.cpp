@@ -123,7 +123,8 @@ Status check_wanted(const std::vector<std::string>& with) {
 Result<Discovery> discover_effects(const MeasurementTable& table, const ModelState& state,
                                    const DiscoveryOptions& options, const RunContext& context) {
   if (Status s = check_options(options); !s) return s.error();
-  const auto start = start_model(table, state, options, part_of(context, 0.0, 0.2));
+  const auto start =
+      start_model(table, state, options, part_of(context, 0.0, 0.2), StructureOf::kFirstStep);
   if (!start) return start.error();
   return search(*start, context);
 }
@@ -131,7 +132,8 @@ Result<Discovery> discover_effects(const MeasurementTable& table, const ModelSta
 Result<Discovery> discover_effects(const DiscoveryInput& input, const DiscoveryOptions& options,
                                    const RunContext& context) {
   if (Status s = check_options(options); !s) return s.error();
-  const auto start = start_model(input, options, part_of(context, 0.0, 0.2));
+  const auto start =
+      start_model(input, options, part_of(context, 0.0, 0.2), StructureOf::kFirstStep);
   if (!start) return start.error();
   return search(*start, context);
 }

@@ -165,7 +165,7 @@ std::vector<EffectSearch::Swap> EffectSearch::swaps(std::size_t k,
   }
   const Linearization linear = linearized(model(), columns);
   if (context_.stopped()) return {};
-  const Reference as_it_is = make_reference(linear, own_subset(columns), variances_, {});
+  const Reference as_it_is = make_reference(linear, own_subset(columns), variances_, how());
   std::vector<Swap> tried(columns.list().size() - first);
   parallel_for(tried.size(), context_.thread_count(), [&](std::size_t at) {
     if (context_.stopped()) return;
@@ -202,7 +202,7 @@ void EffectSearch::refit_from(Linearization start) {
   linear_ = std::move(start);
   at_ = At::kLinear;
   for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
-    reference_ = make_reference(linear_, own_subset(linear_.columns), variances_, {});
+    reference_ = make_reference(linear_, own_subset(linear_.columns), variances_, how());
     variances_ = reference_.fit.variances;
     const Eigen::VectorXd sigma = reference_.fit.covariance.diagonal().cwiseSqrt();
     const double size = (reference_.fit.solution.cwiseAbs().array() / sigma.array()).maxCoeff();
@@ -215,7 +215,7 @@ void EffectSearch::refit_from(Linearization start) {
     if (descent == Descent::kLittle) break;
   }
   if (!context_.stopped())
-    reference_ = make_reference(linear_, own_subset(linear_.columns), variances_, {});
+    reference_ = make_reference(linear_, own_subset(linear_.columns), variances_, how());
 }
 
 Linearization EffectSearch::linear_here() const {
@@ -227,8 +227,8 @@ Linearization EffectSearch::linear_here() const {
 
 ModelFit EffectSearch::fit_as_it_stands(const Linearization& linear,
                                         const ColumnSubset& subset) const {
-  return stated_ ? fit_stated(linear, subset, *stated_)
-                 : fit_model(linear, subset, variances_, {.rounds = 0});
+  return stated_ ? fit_stated(linear, subset, *stated_, context_.thread_count())
+                 : fit_model(linear, subset, variances_, how(0));
 }
 
 std::optional<EffectSearch> EffectSearch::as_stated() const {
@@ -248,6 +248,7 @@ std::optional<EffectSearch> EffectSearch::as_stated() const {
 void EffectSearch::settle() {
   constexpr int kSteps = 15;           // As in refit(); two or three are usual.
   constexpr int kVarianceRounds = 12;  // Per step, as in the joint solve; they go on in the next.
+  const int threads = context_.thread_count();
   stated_.reset();
   joint_covariance_.reset();
   linear_ = sensor_.empty() ? linear_here() : linearized(fitted(), own_columns());
@@ -255,9 +256,9 @@ void EffectSearch::settle() {
   for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
     for (int round = 0; round < kVarianceRounds; ++round) {
       reference_.subset = own_subset(linear_.columns);
-      stated_ =
-          stated_variances(linear_, reference_.subset, stated_ ? stated_->motion : variances_);
-      reference_.fit = fit_stated(linear_, reference_.subset, *stated_);
+      stated_ = stated_variances(linear_, reference_.subset, stated_ ? stated_->motion : variances_,
+                                 threads);
+      reference_.fit = fit_stated(linear_, reference_.subset, *stated_, threads);
       if (!update_sensor_variances()) break;
     }
     const Eigen::VectorXd sigma = reference_.fit.covariance.diagonal().cwiseSqrt();
@@ -312,12 +313,12 @@ EffectSearch::Descent EffectSearch::descend(double size) {
   const std::vector<EffectInUse> in_use = in_use_;
   const std::vector<SensorError> sensor = sensor_;
   const ModelVariances& weights = reference_.fit.variances;
-  const double before = misfit(linear_, reference_.subset, weights);
+  const double before = misfit(linear_, reference_.subset, weights, context_.thread_count());
   for (double share = 1.0; share * size > kStands; share *= 0.5) {
     move(reference_.fit, share);
     Linearization next = linearized(fitted(), own_columns());
     if (context_.stopped()) return Descent::kNone;
-    const double after = misfit(next, own_subset(next.columns), weights);
+    const double after = misfit(next, own_subset(next.columns), weights, context_.thread_count());
     if (after < before) {
       linear_ = std::move(next);
       return size < kSmall && before - after < kLittle ? Descent::kLittle : Descent::kOn;
@@ -386,7 +387,7 @@ bool EffectSearch::admit_structure() {
   constexpr double kChance = 0.01;  // As in the joint solve.
   bool any = false;
   while (!context_.stopped()) {
-    const auto scores = group_scores(linear_, reference_.fit);
+    const auto scores = group_scores(linear_, reference_.fit, context_.thread_count());
     std::size_t best = kVarianceGroups;
     double largest = 1.0;
     for (std::size_t k = 0; k < kVarianceGroups; ++k) {
@@ -404,7 +405,7 @@ bool EffectSearch::admit_structure() {
     any = true;
     // From where half of it would be told.
     variances_.group[best] *= scores[best].effective / scores[best].determined;
-    reference_ = make_reference(linear_, own_subset(linear_.columns), variances_, {});
+    reference_ = make_reference(linear_, own_subset(linear_.columns), variances_, how());
     variances_ = reference_.fit.variances;
   }
   return any;
@@ -442,12 +443,13 @@ void EffectSearch::remake() {
   }
 }
 
-std::vector<double> EffectSearch::shapes_worth_trying(const Effect& effect) const {
+std::vector<double> EffectSearch::shapes_worth_trying(
+    const Effect& effect, std::optional<ChannelResiduals>& of_ranges) const {
   std::vector<double> shapes = effect.shapes(table());
   if (shapes.size() <= kFewShapes) return shapes;
   // Least squares of the range residuals on the effect alone, row by row: a periodogram.
-  const ChannelResiduals residuals =
-      residuals_of(table(), state_, model(), Channel::kRange, context_);
+  if (!of_ranges) of_ranges = residuals_of(table(), state_, model(), Channel::kRange, context_);
+  const ChannelResiduals& residuals = *of_ranges;
   const auto p = effect.parameters(table()).size();
   const std::size_t stride = std::max<std::size_t>(1, residuals.values.size() / 20000);
   std::vector<double> power(shapes.size());
@@ -484,13 +486,15 @@ std::vector<double> EffectSearch::shapes_worth_trying(const Effect& effect) cons
 }
 
 void EffectSearch::append_candidates(EffectColumnsList& columns) const {
+  std::optional<ChannelResiduals> residuals;
   for (const EffectPtr& effect : effect_catalogue()) {
     const std::string& id = effect->info().id;
     const bool used = std::any_of(in_use_.begin(), in_use_.end(), [&](const EffectInUse& use) {
       return use.effect->info().id == id;
     });
     if (used || !why_not_testable(*effect, table()).empty()) continue;
-    for (const double shape : shapes_worth_trying(*effect)) columns.add(effect, shape, table());
+    for (const double shape : shapes_worth_trying(*effect, residuals))
+      columns.add(effect, shape, table());
   }
 }
 
@@ -503,13 +507,15 @@ void EffectSearch::rank() {
   at_ = At::kLinear;
   candidates_.clear();
   if (context_.stopped()) return;
-  reference_ = make_reference(linear_, subset, variances_, {});
+  reference_ = make_reference(linear_, subset, variances_, how());
   variances_ = reference_.fit.variances;
   const std::size_t first = own_count();
   candidates_.resize(columns.list().size() - first);
-  const auto evaluate = [&](std::size_t k, std::size_t columns_at, const MixedModelOptions& how) {
+  const auto evaluate = [&](std::size_t k, std::size_t columns_at,
+                            const MixedModelOptions& options) {
     if (context_.stopped()) return;
-    candidates_[k] = evaluate_candidate(linear_, reference_, columns_at, options_->tolerance, how);
+    candidates_[k] =
+        evaluate_candidate(linear_, reference_, columns_at, options_->tolerance, options);
   };
   parallel_for(candidates_.size(), context_.thread_count(),
                [&](std::size_t k) { evaluate(k, first + k, {.rounds = 3}); });
@@ -635,8 +641,9 @@ std::optional<ExtrinsicMove> EffectSearch::move_without(const EffectPtr& effect)
   columns.add(effect, shape, table());
   const Linearization linear = linearized(model(), columns);
   if (context_.stopped()) return std::nullopt;
-  const Reference reference = make_reference(linear, subset, variances_, {.rounds = 0});
-  const Candidate c = evaluate_candidate(linear, reference, own_count(), options_->tolerance, {});
+  const Reference reference = make_reference(linear, subset, variances_, how(0));
+  const Candidate c =
+      evaluate_candidate(linear, reference, own_count(), options_->tolerance, how());
   const auto p = static_cast<Eigen::Index>(columns.list().back().count());
   const ExtrinsicMove move = move_if_omitted(c.fit, c.fit.solution.tail(p));
   if (!std::isfinite(move.translation_m) || !std::isfinite(move.rotation_rad)) return std::nullopt;
@@ -648,13 +655,13 @@ std::optional<std::size_t> EffectSearch::superfluous() {
   const Linearization linear = linear_here();
   if (context_.stopped()) return std::nullopt;
   const ColumnSubset all = own_subset(linear.columns);
-  const Reference with = make_reference(linear, all, variances_, {.rounds = 0});
+  const Reference with = make_reference(linear, all, variances_, how(0));
   for (std::size_t k = 0; k < in_use_.size(); ++k) {
     // Without the effect its rows still hold the values in use: the candidate's increment undoes
     // them, so that the test of "increment equals minus the value" is that of the removal.
     ColumnSubset frozen = all;
     hold_at_zero(linear.columns.list()[k], in_use_[k].values, frozen);
-    const Reference without = make_reference(linear, frozen, variances_, {});
+    const Reference without = make_reference(linear, frozen, variances_, how());
     std::vector<double> gain;
     for (std::size_t s = 0; s < with.density.size(); ++s)
       gain.push_back(with.density[s] - without.density[s]);

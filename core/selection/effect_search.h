@@ -123,7 +123,10 @@ class EffectSearch {
   [[nodiscard]] std::optional<std::size_t> superfluous();
 
   /// Shape numbers of an effect; of very many the few that the range residuals speak for.
-  [[nodiscard]] std::vector<double> shapes_worth_trying(const Effect& effect) const;
+  [[nodiscard]] std::vector<double> shapes_worth_trying(const Effect& effect) const {
+    std::optional<ChannelResiduals> residuals;
+    return shapes_worth_trying(effect, residuals);
+  }
 
   [[nodiscard]] const MeasurementTable& table() const { return *table_; }
   [[nodiscard]] const ModelState& state() const { return state_; }
@@ -175,8 +178,8 @@ class EffectSearch {
   [[nodiscard]] Linearization linearized(const std::vector<EffectInUse>& effects,
                                          const EffectColumnsList& columns,
                                          const ChannelMask& channels = kEveryChannel) const {
-    return linearize(table(), state_, effects, columns, context_, channels,
-                     memory_ ? &*memory_ : nullptr);
+    return linearize(table(), state_, effects, columns, context_,
+                     {channels, memory_ ? &*memory_ : nullptr});
   }
   // Columns that stand for effect number `of`, its value in use taken for zero.
   struct OtherColumns {
@@ -184,6 +187,10 @@ class EffectSearch {
   };
   [[nodiscard]] ColumnSubset own_subset(const EffectColumnsList& columns,
                                         const std::optional<OtherColumns>& other = {}) const;
+  // `residuals`: of the ranges, the same for every effect; the first that asks for them fills them
+  // in.
+  [[nodiscard]] std::vector<double> shapes_worth_trying(
+      const Effect& effect, std::optional<ChannelResiduals>& residuals) const;
   void append_candidates(EffectColumnsList& columns) const;
   void settle();
   bool update_sensor_variances();
@@ -195,6 +202,10 @@ class EffectSearch {
   [[nodiscard]] std::vector<double> shape_profile(std::size_t k, const std::vector<double>& shapes,
                                                   std::optional<Linearization>& elsewhere) const;
   void estimate_joint_covariance();
+  // A fit on all threads.
+  [[nodiscard]] MixedModelOptions how(int rounds = MixedModelOptions{}.rounds) const {
+    return {.rounds = rounds, .threads = context_.thread_count()};
+  }
   // Of own columns and others, with the variances of the search or as it is stated.
   [[nodiscard]] ModelFit fit_as_it_stands(const Linearization& linear,
                                           const ColumnSubset& subset) const;

@@ -75,14 +75,16 @@ Result<ModelStepPtr> step_from(EffectSearch found, ModelStep step, const RunCont
   const auto model = search.model();
   step.nuisance.assign(model.begin() + static_cast<std::ptrdiff_t>(search.in_use().size()),
                        model.end());
+  context.report("structure", 0.7, Message("looking for structure"));
   EveryResidual residuals = every_residual(search.table(), search.state(), model, context);
   if (context.stopped()) return Error::cancelled();
   step.channels = summarize_channels(residuals, model, search.reference().heldout);
-  context.report("structure", 0.7, Message("looking for structure"));
-  StructureScan scan = scan_structure(search.table(), std::move(residuals), context);
+  if (step.basis->structure == StructureOf::kEveryStep || step.change == ModelChange::kStart) {
+    StructureScan scan = scan_structure(search.table(), std::move(residuals), context);
+    step.structure = std::move(scan.curves);
+    step.places = std::move(scan.places);
+  }
   if (context.stopped()) return Error::cancelled();
-  step.structure = std::move(scan.curves);
-  step.places = std::move(scan.places);
   found.lay_aside();
   step.search = std::make_shared<const EffectSearch>(std::move(found));
   return ModelStepPtr(std::make_shared<const ModelStep>(std::move(step)));
@@ -201,16 +203,17 @@ Result<EffectPtr> make_effect(const std::string& spec, const MeasurementTable& t
 }
 
 Result<ModelStepPtr> start_model(MeasurementTable table, const ModelState& state,
-                                 const DiscoveryOptions& options, const RunContext& context) {
+                                 const DiscoveryOptions& options, const RunContext& context,
+                                 StructureOf structure) {
   if (Status s = enough_scenes(table.scenes.size()); !s) return s.error();
   ModelStep step;
-  step.basis = std::make_shared<const ModelBasis>(ModelBasis{std::move(table), options});
+  step.basis = std::make_shared<const ModelBasis>(ModelBasis{std::move(table), options, structure});
   step.state = state;
   return fitted(std::move(step), context);
 }
 
 Result<ModelStepPtr> start_model(const DiscoveryInput& input, const DiscoveryOptions& options,
-                                 const RunContext& context) {
+                                 const RunContext& context, StructureOf structure) {
   if (Status s = enough_scenes(input.scenes.size()); !s) return s.error();
   if (!input.print) {
     return Error::untrusted(
@@ -218,7 +221,7 @@ Result<ModelStepPtr> start_model(const DiscoveryInput& input, const DiscoveryOpt
         Message("see the warnings of the calibration"));
   }
   context.report("table", 0.0, Message("collecting measurements"));
-  return start_model(table_of(input, options.table), input.state, options, context);
+  return start_model(table_of(input, options.table), input.state, options, context, structure);
 }
 
 Result<ModelStepPtr> add_effect(const ModelStepPtr& from, const std::string& spec,

@@ -32,10 +32,17 @@ struct DiscoveryInput : TableInput {
 /// The measurements of a calibration, with every covariate. The input needs its print.
 MeasurementTable table_of(const DiscoveryInput& input, const TableOptions& options);
 
+/// Which steps' residuals are searched for structure; that of others is left empty.
+enum class StructureOf {
+  kEveryStep,  ///< For whoever looks at each.
+  kFirstStep,  ///< Of the base model alone.
+};
+
 /// What the steps of one session share: the measurements and how effects are judged.
 struct ModelBasis {
   MeasurementTable table;
   DiscoveryOptions options;
+  StructureOf structure = StructureOf::kEveryStep;
 };
 
 /// What was done to a model to make a step.
@@ -65,7 +72,7 @@ struct ModelStep {
   std::vector<ModelTerm> terms;
   std::vector<EffectInUse> nuisance;  ///< Nature's share that is no effect to find.
   std::vector<ChannelSummary> channels;
-  std::vector<StructureScore> structure;  ///< Every covariate's, best first.
+  std::vector<StructureScore> structure;  ///< Every covariate's, best first (see StructureOf).
   std::vector<StructureScore> places;     ///< Of surfaces, best first (see StructureScan).
   /// The search that stands at this model: where the next step takes it up.
   std::shared_ptr<const EffectSearch> search;
@@ -94,10 +101,12 @@ Result<EffectPtr> make_effect(const std::string& spec, const MeasurementTable& t
 
 /// Collects the measurements and fits the base model. Errors as discover_effects().
 Result<ModelStepPtr> start_model(const DiscoveryInput& input, const DiscoveryOptions& options,
-                                 const RunContext& context);
+                                 const RunContext& context,
+                                 StructureOf structure = StructureOf::kEveryStep);
 /// The same from measurements collected already.
 Result<ModelStepPtr> start_model(MeasurementTable table, const ModelState& state,
-                                 const DiscoveryOptions& options, const RunContext& context);
+                                 const DiscoveryOptions& options, const RunContext& context,
+                                 StructureOf structure = StructureOf::kEveryStep);
 
 /// The model with one more effect, fitted. The shape number starts at `shape`, or at the one that
 /// held-out scenes prefer, and is refined. Switches it on if it is there and off. Errors: kUsage

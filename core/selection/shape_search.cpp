@@ -46,7 +46,7 @@ double EffectSearch::preferred_shape(const EffectPtr& effect) const {
   for (const double shape : shapes) columns.add(effect, shape, table());
   const Linearization linear = linearized(model(), columns);
   if (context_.stopped()) return shapes.front();
-  const Reference reference = make_reference(linear, subset, variances_, {});
+  const Reference reference = make_reference(linear, subset, variances_, how());
   std::vector<double> gain(shapes.size(), -HUGE_VAL);
   parallel_for(shapes.size(), context_.thread_count(), [&](std::size_t k) {
     if (!context_.stopped())

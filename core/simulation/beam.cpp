@@ -270,9 +270,9 @@ double Beam::bloom(std::span<const SubRay> pulse, double mean_reflectivity) cons
 }
 
 Cloud scan(const LidarOptions& options, const ScanPattern& pattern, const RayCaster& caster,
-           Random random, std::stop_token stop, const PlantedEffects& planted, double clock_s) {
+           Random random, std::stop_token stop, const PlantedScene& planted) {
   constexpr std::size_t kStopInterval = 4096;
-  const ShotSimulator simulator(options, pattern, caster, planted, clock_s);
+  const ShotSimulator simulator(options, pattern, caster, planted.effects, planted.clock_s);
   Cloud cloud;
   const std::size_t count = pattern.size();
   cloud.points_m.reserve(count);

@@ -80,12 +80,16 @@ class Beam {
   double reach_rad_;  // Radius that holds every node.
 };
 
+/// What is planted in one scene.
+struct PlantedScene {
+  PlantedEffects effects = {};
+  double clock_s = 0.0;  ///< Since the first scene.
+};
+
 /// Fires all shots of a pattern and adds the noise: direction jitter before the shot, range and
 /// intensity noise after it. The point lies in the commanded direction; intensity is a whole
-/// number, 0 … 255 on the default scale. Planted effects act before the noise; `clock_s` is the
-/// time since the first scene. Empty if stopped.
+/// number, 0 … 255 on the default scale. Planted effects act before the noise. Empty if stopped.
 Cloud scan(const LidarOptions& options, const ScanPattern& pattern, const RayCaster& caster,
-           Random random, std::stop_token stop, const PlantedEffects& planted = {},
-           double clock_s = 0.0);
+           Random random, std::stop_token stop, const PlantedScene& planted = {});
 
 }  // namespace lvcalib::simulation

@@ -281,11 +281,10 @@ void expose(const cv::Mat& image, const ImageOptions& options, Random& random,
 
 }  // namespace
 
-SimulatedImage photograph(const ImageOptions& options, const Camera& camera,
-                          const Rigid3& camera_from_lidar, const Room& room, Random random,
-                          std::stop_token stop, const CameraDisturbance& disturbance) {
-  SimulatedImage image{camera.width_px, camera.height_px, {}};
-  Renderer renderer(options, camera, camera_from_lidar, room, stop, disturbance);
+SimulatedImage photograph(const ImageOptions& options, const PlacedCamera& by, const Room& room,
+                          Random random, std::stop_token stop) {
+  SimulatedImage image{by.camera.width_px, by.camera.height_px, {}};
+  Renderer renderer(options, by.camera, by.camera_from_lidar, room, stop, by.disturbance);
   if (stop.stop_requested()) return image;
   const cv::Mat grey = renderer.render();
   if (grey.empty() || stop.stop_requested()) return image;

@@ -21,16 +21,21 @@ struct SimulatedImage {
   std::vector<std::uint8_t> pixels;
 };
 
+/// A camera in a room; refers to it and its place.
+struct PlacedCamera {
+  const Camera& camera;
+  const Rigid3& camera_from_lidar;
+  CameraDisturbance disturbance = {};  ///< How it differs from `camera`.
+};
+
 /// Photographs a room.
 ///
 /// Light: reflectivity × (ambient + Lambert's law) × mild vignetting, linear up to saturation,
 /// exposed so that white paper facing the lamp's mean has the white level. Around the board every
 /// pixel is integrated over its area: on a grid of half pixels, each one sample where it lies on a
 /// plain piece, 5 × 5 where an edge crosses it. The lens blur is applied on that grid too. Then
-/// shot noise (√electrons) and read noise, and rounding to 8 bits. `disturbance` says how the
-/// camera that takes the photograph differs from `camera`.
-SimulatedImage photograph(const ImageOptions& options, const Camera& camera,
-                          const Rigid3& camera_from_lidar, const Room& room, Random random,
-                          std::stop_token stop, const CameraDisturbance& disturbance = {});
+/// shot noise (√electrons) and read noise, and rounding to 8 bits.
+SimulatedImage photograph(const ImageOptions& options, const PlacedCamera& by, const Room& room,
+                          Random random, std::stop_token stop);
 
 }  // namespace lvcalib::simulation

@@ -64,11 +64,11 @@ Result<SimulatedScene> Simulator::simulate_scene(int scene, const RunContext& co
   const Room room =
       build_room(options, *board_, out.lidar_from_board, camera_in_lidar, random(Purpose::kRoom));
   const RayCaster caster(room, Eigen::Vector3d::Zero());
-  out.cloud = scan(options.lidar, pattern, caster, random(Purpose::kBeam), context.stop, *planted_,
-                   scene * RangeDisturbance::kSceneIntervalS);
+  out.cloud = scan(options.lidar, pattern, caster, random(Purpose::kBeam), context.stop,
+                   {*planted_, scene * RangeDisturbance::kSceneIntervalS});
   if (context.stopped()) return Error::cancelled();
-  out.image = photograph(options.image, rig_.camera, rig_.camera_from_lidar, room,
-                         random(Purpose::kImage), context.stop, planted_->camera);
+  out.image = photograph(options.image, {rig_.camera, rig_.camera_from_lidar, planted_->camera},
+                         room, random(Purpose::kImage), context.stop);
   if (context.stopped()) return Error::cancelled();
   return out;
 }

@@ -373,10 +373,21 @@ struct BlurredPrint::Level {
   }
 
   [[nodiscard]] double nearest(const Eigen::Vector2d& p) const {
-    const Eigen::Vector2d at = (p - origin) / step;
-    const int c = std::clamp(static_cast<int>(std::lround(at.x())), 0, columns - 1);
-    const int r = std::clamp(static_cast<int>(std::lround(at.y())), 0, rows - 1);
-    return static_cast<double>(kUnit) * sample(c, r)[0];
+    const Eigen::Vector2d at = per_step * (p - origin);
+    const auto place = [](double x, int count) {
+      return static_cast<int>(std::clamp(x + 0.5, 0.0, count - 1.0));
+    };
+    return static_cast<double>(kUnit) * sample(place(at.x(), columns), place(at.y(), rows))[0];
+  }
+
+  // Tables are larger than a processor's own cache: what add() will read there is asked for ahead.
+  void expect(const Eigen::Vector2d& p) const {
+    const double ax = (p.x() - origin.x()) * per_step;
+    const double ay = (p.y() - origin.y()) * per_step;
+    if (!(ax >= 0.0 && ay >= 0.0 && ax < columns - 1 && ay < rows - 1)) return;
+    const auto* const lower = &sample(static_cast<int>(ax), static_cast<int>(ay));
+    __builtin_prefetch(lower);
+    __builtin_prefetch(lower + columns);
   }
 
   // Value, slopes and second derivatives, per step, summed over places with weights: each in four
@@ -503,8 +514,10 @@ PrintSample BlurredPrint::at(const Eigen::Vector2d& board_m, const Eigen::Matrix
   PrintSample out;
   // Plain print: N(0, S) lies nowhere above √(major/minor) times the isotropic N(0, major).
   const double per_first = 1.0 / variance_m2_.front();
-  const int wide = std::min(
-      kLevels - 1, static_cast<int>(std::floor(kPerLevel * std::log(major * per_first))) + 2);
+  const auto level_of = [&](double variance) {
+    return static_cast<int>(kPerLevel * std::log(variance * per_first));
+  };
+  const int wide = std::min(kLevels - 1, level_of(major) + 2);
   const double around = level(wide).nearest(board_m);
   const double plain = kPlain * std::sqrt(minor / major);
   if (around > 1.0 - plain || around < plain) {
@@ -513,8 +526,9 @@ PrintSample BlurredPrint::at(const Eigen::Vector2d& board_m, const Eigen::Matrix
   }
 
   // Between two levels: their blends by v = σ².
-  const int below = std::clamp(
-      static_cast<int>(std::floor(kPerLevel * std::log(minor * per_first))), 0, kLevels - 2);
+  const int below = std::min(level_of(minor), kLevels - 2);
+  const std::array<const Level*, 2> sources{&level(below), &level(below + 1)};
+  for (const Level* const source : sources) source->expect(board_m);
   const LevelBlend blend(variance_m2_[static_cast<std::size_t>(below)],
                          variance_m2_[static_cast<std::size_t>(below + 1)], minor);
 
@@ -531,7 +545,7 @@ PrintSample BlurredPrint::at(const Eigen::Vector2d& board_m, const Eigen::Matrix
   out.white = 0.0;
   for (std::size_t i = 0; i < 2; ++i) {
     if (i == 1 && blend.slope[1] == 0.0) break;
-    const Level& source = level(below + static_cast<int>(i));
+    const Level& source = *sources[i];
     Level::Sum sum;
     for (int k = 0; k < q.count; ++k) {
       const auto j = static_cast<std::size_t>(k);

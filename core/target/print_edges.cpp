@@ -74,6 +74,7 @@ PrintEdges::PrintEdges(const Target& t) {
   const Eigen::Vector2d size = t.outline().size_m();
   columns_ = std::max(1, static_cast<int>(std::ceil(size.x() / kCell)));
   rows_ = std::max(1, static_cast<int>(std::ceil(size.y() / kCell)));
+  for (const Segment& s : segments_) at_.push_back(s.at);
   near_ = within(kNear);
   far_ = within(kFar);
 }
@@ -112,7 +113,7 @@ void PrintEdges::add_grid(const Eigen::Vector2d& origin, const Eigen::Vector2d& 
 std::vector<PrintEdges::Nearby> PrintEdges::within(double reach_m) const {
   std::vector<Nearby> cells(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   const auto add = [&](const Eigen::Vector2d& low, const Eigen::Vector2d& high, std::size_t index,
-                       std::vector<int> Nearby::*list) {
+                       const auto& list_of) {
     const Eigen::Vector2d a = (low - origin_).array() - reach_m;
     const Eigen::Vector2d b = (high - origin_).array() + reach_m;
     const auto place = [](double x, int count) {
@@ -120,7 +121,7 @@ std::vector<PrintEdges::Nearby> PrintEdges::within(double reach_m) const {
     };
     for (int r = place(a.y(), rows_); r <= place(b.y(), rows_); ++r) {
       for (int c = place(a.x(), columns_); c <= place(b.x(), columns_); ++c)
-        (cells[static_cast<std::size_t>(r * columns_ + c)].*list)
+        list_of(cells[static_cast<std::size_t>(r * columns_ + c)])
             .push_back(static_cast<int>(index));
     }
   };
@@ -131,11 +132,15 @@ std::vector<PrintEdges::Nearby> PrintEdges::within(double reach_m) const {
     low(s.axis) = s.from;
     high(s.axis) = s.to;
     low(1 - s.axis) = high(1 - s.axis) = s.at;
-    add(low, high, k, &Nearby::segments);
+    add(
+        low, high,
+        k, [&](Nearby & cell) -> auto& { return cell.segments[static_cast<std::size_t>(s.axis)]; });
   }
   const Eigen::Vector2d radius(radius_m_, radius_m_);
   for (std::size_t k = 0; k < circles_.size(); ++k)
-    add(circles_[k] - radius, circles_[k] + radius, k, &Nearby::circles);
+    add(
+        circles_[k] - radius, circles_[k] + radius, k,
+        [](Nearby & cell) -> auto& { return cell.circles; });
   return cells;
 }
 
@@ -148,18 +153,21 @@ std::size_t PrintEdges::cell_of(const Eigen::Vector2d& board_m) const {
 
 double PrintEdges::grow(const Eigen::Vector2d& p, const Eigen::Matrix2d& blur, double growth_m,
                         PrintSample& sample) const {
-  const std::array<Spot, 2> spots{Spot(blur, 0), Spot(blur, 1)};
   // Along an edge a spot reaches as far again as its middle moves while the edge is within reach
   // across, by at most √2 times its width in all; ends move by the growth or less.
   const double reach = std::numbers::sqrt2 * kReach * std::sqrt(blur.diagonal().maxCoeff()) +
                        2.0 * std::abs(growth_m);
   const Nearby& cell = (reach < kNear ? near_ : far_)[cell_of(p)];
   double density = 0.0;
-  for (const int k : cell.segments) {
-    const Segment& s = segments_[static_cast<std::size_t>(k)];
-    const Spot& spot = spots[static_cast<std::size_t>(s.axis)];
-    if (std::abs(s.at - p(1 - s.axis)) > spot.reach_across + std::abs(growth_m)) continue;
-    density += sweep(s, p, spot, growth_m, sample);
+  for (const int axis : {0, 1}) {
+    const Spot spot(blur, axis);
+    const double across = p(1 - axis);
+    const double farthest = spot.reach_across + std::abs(growth_m);
+    for (const int k : cell.segments[static_cast<std::size_t>(axis)]) {
+      const auto at = static_cast<std::size_t>(k);
+      if (std::abs(at_[at] - across) <= farthest)
+        density += sweep(segments_[at], p, spot, growth_m, sample);
+    }
   }
   for (const int k : cell.circles)
     density += sweep_circle(p - circles_[static_cast<std::size_t>(k)], blur, growth_m, sample);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
@@ -59,12 +60,14 @@ class PrintEdges {
                 const IsBlack& is_black);
   // The segments and circles that may matter in one cell of the board, in their order.
   struct Nearby {
-    std::vector<int> segments, circles;
+    std::array<std::vector<int>, 2> segments;  // Along x, and along y.
+    std::vector<int> circles;
   };
   [[nodiscard]] std::vector<Nearby> within(double reach_m) const;
   [[nodiscard]] std::size_t cell_of(const Eigen::Vector2d& board_m) const;
 
   std::vector<Segment> segments_;
+  std::vector<double> at_;  // Of the segments, side by side: most are farther than a spot reaches.
   std::vector<Eigen::Vector2d> circles_;
   double radius_m_ = 0.0;
   Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();

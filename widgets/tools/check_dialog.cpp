@@ -55,15 +55,14 @@ double metres_ahead(const EdgeLook* look) {
 
 }  // namespace
 
-CheckDialog::CheckDialog(Camera camera, const CheckedPose& pose, std::vector<FilePair> pairs,
-                         bool has_guess, Choices& choices, const QString& folder, QWidget* parent)
+CheckDialog::CheckDialog(CheckStart start, Choices& choices, QWidget* parent)
     : QDialog(parent),
-      camera_(std::move(camera)),
-      given_(pose),
-      pairs_(std::move(pairs)),
-      has_guess_(has_guess),
+      camera_(std::move(start.camera)),
+      given_(std::move(start.pose)),
+      pairs_(std::move(start.pairs)),
+      has_guess_(start.has_guess),
       choices_(choices),
-      folder_(folder),
+      folder_(std::move(start.folder)),
       place_label_(new QLabel(this)),
       place_(new QComboBox(this)),
       browse_(new QPushButton(this)),

@@ -37,6 +37,15 @@ struct CheckedPose {
   std::optional<Matrix6d> covariance;
 };
 
+/// What a check starts with.
+struct CheckStart {
+  Camera camera;
+  CheckedPose pose;
+  std::vector<FilePair> pairs;  ///< Places of what is open, shown first; may be empty.
+  bool has_guess = false;       ///< A rough pose is in force.
+  QString folder;               ///< Where others are looked for first.
+};
+
 /// A pose laid over a picture: the LiDAR's points and edges under a pose that sliders and the mouse
 /// move, how well edges agree there, and whether that contradicts the calibration. For fresh data
 /// without a board, and to find a rough pose by hand.
@@ -44,10 +53,8 @@ class CheckDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// `pairs`: places of what is open, shown first; may be empty. `choices` must outlive this;
-  /// `folder`: where others are looked for first. `has_guess`: a rough pose is in force.
-  CheckDialog(Camera camera, const CheckedPose& pose, std::vector<FilePair> pairs, bool has_guess,
-              Choices& choices, const QString& folder, QWidget* parent = nullptr);
+  /// `choices` must outlive this.
+  CheckDialog(CheckStart start, Choices& choices, QWidget* parent = nullptr);
   ~CheckDialog() override;
 
   [[nodiscard]] bool busy() const { return work_.busy(); }

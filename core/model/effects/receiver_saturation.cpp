@@ -52,7 +52,10 @@ class ReceiverSaturation final : public CatalogueEffect {
 
   void lidar(const BeamPoint& beam, const MeasurementTable& table, double shape,
              std::span<Eigen::Vector3d> by) const override {
-    by[0] = Echoes(beam, table, shape).mean_excess() * beam.direction;
+    // No print is brighter than white.
+    const double power = log_power(beam.range_m, beam.incidence_rad);
+    if (power <= shape) return;
+    by[0] = Echoes(beam, power, table, shape).mean_excess() * beam.direction;
   }
 
   // Beside the scene's levels, which are those of clipped print in the board's middle: what a
@@ -61,10 +64,11 @@ class ReceiverSaturation final : public CatalogueEffect {
                  std::span<double> by) const override {
     const TableScene& scene = table.scenes[static_cast<std::size_t>(row.beam.scene)];
     const double middle = log_power(scene.middle_range_m, scene.middle_incidence_rad) - shape;
-    const Echoes echoes(row.beam, table, shape);
+    const double power = log_power(row.beam.range_m, row.beam.incidence_rad);
+    const Echoes echoes(row.beam, power, table, shape);
     const double black = echoes.black();
     const double white_level = std::exp(-std::max(0.0, middle));
-    const double black_level = black * std::exp(-std::max(0.0, middle + std::log(black)));
+    const double black_level = black * std::exp(-std::max(0.0, middle + echoes.log_black()));
     by[1] = std::log(echoes.mean_reflectivity()) -
             std::log(black_level + (white_level - black_level) * white_share(row.beam));
   }
@@ -75,13 +79,13 @@ class ReceiverSaturation final : public CatalogueEffect {
 
   static double reflectivity(double white, double black) { return black + (1.0 - black) * white; }
 
-  // Beside white, whose level may be that of clipped white.
-  static double reflectivity_of_black(int scene, const MeasurementTable& table, double shape) {
+  // ln of black's reflectivity beside white, whose level may be that of clipped white.
+  static double log_reflectivity_of_black(int scene, const MeasurementTable& table, double shape) {
     const auto at = static_cast<std::size_t>(scene);
-    if (at >= table.placed_by.levels.size()) return std::exp(-std::max(0.0, table.log_contrast));
+    if (at >= table.placed_by.levels.size()) return -std::max(0.0, table.log_contrast);
     const TableScene& s = table.scenes[at];
-    return std::exp(-std::max(0.0, log_contrast(table.placed_by.levels[at])) -
-                    std::max(0.0, log_power(s.middle_range_m, s.middle_incidence_rad) - shape));
+    return -std::max(0.0, log_contrast(table.placed_by.levels[at])) -
+           std::max(0.0, log_power(s.middle_range_m, s.middle_incidence_rad) - shape);
   }
 
   // Echoes of one return's place that jitter makes see more or less white than their mean. Across
@@ -91,9 +95,11 @@ class ReceiverSaturation final : public CatalogueEffect {
   // p = Φ(u) on either side of the limit by Gauss and Legendre's rule.
   class Echoes {
    public:
-    Echoes(const BeamPoint& beam, const MeasurementTable& table, double shape)
-        : black_(reflectivity_of_black(beam.scene, table, shape)),
-          log_limit_(shape - log_power(beam.range_m, beam.incidence_rad)),
+    // `power`: ln P of white print there.
+    Echoes(const BeamPoint& beam, double power, const MeasurementTable& table, double shape)
+        : log_black_(log_reflectivity_of_black(beam.scene, table, shape)),
+          black_(std::exp(log_black_)),
+          log_limit_(shape - power),
           limit_(std::exp(log_limit_)) {
       constexpr double kPlain = 1e-4;  // Print of one kind, to less than any noise.
       constexpr double kMost = 0.99;   // All of a blur being jitter has no slope.
@@ -114,6 +120,7 @@ class ReceiverSaturation final : public CatalogueEffect {
     }
 
     [[nodiscard]] double black() const { return black_; }
+    [[nodiscard]] double log_black() const { return log_black_; }
 
     // What they show on average, beside unclipped white.
     [[nodiscard]] double mean_reflectivity() const {
@@ -161,6 +168,7 @@ class ReceiverSaturation final : public CatalogueEffect {
       return reflectivity(normal_cdf((z_ + jitter_ * u) / footprint_), black_);
     }
 
+    double log_black_;
     double black_;
     double log_limit_;
     double limit_;

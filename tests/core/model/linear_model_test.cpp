@@ -177,7 +177,7 @@ TEST(Linearize, RowsOfOneReturnSayWhatTheySayAlone) {
   for (std::size_t c = 0; c < kChannels; ++c) {
     ChannelMask one{};
     one[c] = true;
-    const Linearization alone = linearize(made.table, made.truth, in_use, columns, {}, one);
+    const Linearization alone = linearize(made.table, made.truth, in_use, columns, {}, {one});
     for (std::size_t s = 0; s < 2; ++s) {
       EXPECT_GT(alone.scenes[s].rows[c], 0);
       EXPECT_EQ(together.scenes[s].rows[c], alone.scenes[s].rows[c]);

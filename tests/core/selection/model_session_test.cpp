@@ -229,6 +229,8 @@ TEST_F(Session, EveryWayToTheSameModelEndsAtTheSameDigits) {
   const auto ranking = rank_effects(**found, context_);
   ASSERT_TRUE(ranking);
   const Discovery shown = as_discovery(steps, &*ranking);
+  EXPECT_FALSE(one_go->structure.empty()) << "what two effects leave in the base model";
+  EXPECT_EQ(shown.structure.size(), one_go->structure.size());
   ASSERT_EQ(shown.effects.size(), one_go->effects.size());
   for (std::size_t k = 0; k < shown.effects.size(); ++k) {
     const EffectFinding& a = shown.effects[k];

@@ -32,7 +32,7 @@ class Photograph : public testing::Test {
     camera_from_board = camera_from_lidar * lidar_from_board;
     const Room room = build_room(options, board, lidar_from_board,
                                  camera_from_lidar.inverse().translation, Random(seed, 6));
-    image = photograph(options.image, camera, camera_from_lidar, room, Random(seed, 7), {});
+    image = photograph(options.image, {camera, camera_from_lidar}, room, Random(seed, 7), {});
     ASSERT_EQ(image.pixels.size(), 720U * 450U);
   }
 
@@ -153,7 +153,7 @@ TEST_F(Photograph, StopsWhenAsked) {
   std::stop_source stop;
   stop.request_stop();
   const Room room;
-  EXPECT_TRUE(photograph(options.image, random_camera(options.image, Random(1)), Rigid3{}, room,
+  EXPECT_TRUE(photograph(options.image, {random_camera(options.image, Random(1)), Rigid3{}}, room,
                          Random(1), stop.get_token())
                   .pixels.empty());
 }

@@ -45,8 +45,8 @@ const Rooms& rooms() {
 class CheckDialogTest : public ::testing::Test {
  protected:
   void show(const CheckedPose& pose, const std::vector<FilePair>& pairs) {
-    dialog_ = std::make_unique<CheckDialog>(rooms().camera, pose, pairs, false, answers_,
-                                            rooms().folder.path());
+    dialog_ = std::make_unique<CheckDialog>(
+        CheckStart{rooms().camera, pose, pairs, false, rooms().folder.path()}, answers_);
     dialog_->setAttribute(Qt::WA_DeleteOnClose, false);
     QObject::connect(dialog_.get(), &CheckDialog::roughPoseWanted,
                      [this](const std::optional<Rigid3>& pose) { wanted_.push_back(pose); });

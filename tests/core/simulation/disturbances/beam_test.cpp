@@ -166,7 +166,7 @@ double scanned_edge_mm(const Effects& effects, LidarKind kind, bool vertical) {
   options.range_exponent = 0.0;
   if (kind == LidarKind::kSpinning) options.points *= 5;  // Columns that fall between others.
   const ScanPattern pattern(options, Random(7));
-  const Cloud cloud = scan(options, pattern, caster, Random(8), {}, plant(effects, kind));
+  const Cloud cloud = scan(options, pattern, caster, Random(8), {}, {plant(effects, kind)});
   constexpr double kWidth = 0.04;
   double white = 0.0;
   int count = 0;

@@ -94,7 +94,7 @@ std::vector<double> shoot(const Effects& effects, int& width) {
   swap << 0, -1, 0, 0, 0, -1, 1, 0, 0;
   const Rigid3 camera_from_lidar{Eigen::Quaterniond(swap), Eigen::Vector3d::Zero()};
   const SimulatedImage image =
-      photograph(options.image, camera, camera_from_lidar, room, Random(1), {}, planted.camera);
+      photograph(options.image, {camera, camera_from_lidar, planted.camera}, room, Random(1), {});
   width = image.width_px;
   return {image.pixels.begin(), image.pixels.end()};
 }

@@ -54,7 +54,7 @@ inline Cloud scan_wall(const Surface& surface, const PlantedEffects& planted, Li
   const RayCaster caster(room, Eigen::Vector3d::Zero());
   const LidarOptions options = quiet(kind);
   const ScanPattern pattern(options, Random(7));
-  return scan(options, pattern, caster, Random(8), {}, planted, clock_s);
+  return scan(options, pattern, caster, Random(8), {}, {planted, clock_s});
 }
 
 /// Where the LiDAR should have ranged the wall along a point's direction.

@@ -19,7 +19,7 @@ double level(const Effects& effects, double range_m, double reflectivity, double
   LidarOptions options = quiet(LidarKind::kAvia);
   options.intensity_scale = 1e4;
   const ScanPattern pattern(options, Random(7));
-  const Cloud cloud = scan(options, pattern, caster, Random(8), {}, plant(effects));
+  const Cloud cloud = scan(options, pattern, caster, Random(8), {}, {plant(effects)});
   double sum = 0.0;
   int count = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
