@@ -149,12 +149,14 @@ void MainActions::follow(AppSettings& settings) {
     settings.set_theme(theme_named(action->data().toString()));
     apply_theme(*qApp, settings.theme());
   });
-  connect(languages, &QActionGroup::triggered, this, [&settings](const QAction* action) {
+  connect(languages, &QActionGroup::triggered, this, [this, &settings](const QAction* action) {
     settings.set_language(action->data().toString());
-    // Every word of the window at once: the one click that takes longer than a moment.
-    QGuiApplication::setOverrideCursor(Qt::WaitCursor);
+    // Every word in sight is set and laid out in one turn of the event loop and drawn in the next:
+    // both in one would keep the window from answering for more than a moment.
+    QWidget* window = tool_bar->window();
+    window->setUpdatesEnabled(false);
     use_language(settings.language());
-    QTimer::singleShot(0, qApp, [] { QGuiApplication::restoreOverrideCursor(); });
+    QTimer::singleShot(0, window, [window] { window->setUpdatesEnabled(true); });
   });
 }
 

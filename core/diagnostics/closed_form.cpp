@@ -250,7 +250,8 @@ void suggest_closed_forms(const MeasurementTable& table, const ModelState& state
   for (std::size_t k = 0; k < std::min(most, scores.size()); ++k) {
     if (context.stopped()) return;
     if (!scores[k].second_covariate.empty()) continue;  // formulas of one covariate
-    const ChannelResiduals residuals = residuals_of(table, state, in_use, scores[k].channel);
+    const ChannelResiduals residuals =
+        residuals_and_nuisance(table, state, in_use, scores[k].channel);
     for (const Covariate& c : covariates_of(table, scores[k].channel, residuals)) {
       if (c.name != scores[k].covariate) continue;
       const ClosedForm form = closed_form_of(c, scores[k].channel, residuals, scenes);

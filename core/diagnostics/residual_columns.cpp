@@ -107,7 +107,7 @@ std::vector<float> effect_pattern(const FittedModel& model, const EffectInUse& e
   std::optional<Adaptation> adaptation;
   if (adapted) adaptation.emplace(model, effect);
   const std::vector<double> with = residuals_of(model.table, model.state, {effect}, channel).values;
-  const ChannelResiduals without = residuals_of(model.table, model.state, {}, channel);
+  const ChannelResiduals without = residuals_and_nuisance(model.table, model.state, {}, channel);
   const bool sees_extrinsic = channel == Channel::kRange || channel == Channel::kBoundary;
   std::vector<float> out;
   out.reserve(with.size());

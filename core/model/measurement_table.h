@@ -36,6 +36,7 @@ constexpr std::size_t kPrints = 2;
 /// itself.
 struct BeamPoint {
   int scene = 0;
+  int line = 0;                                          ///< 0 if absent.
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< Unit, LiDAR frame, as reported.
   double range_m = 0.0;                                  ///< Predicted: ray ∩ board.
   double azimuth_rad = 0.0;
@@ -51,7 +52,6 @@ struct BeamPoint {
   double jitter_share = 0.0;
   std::optional<NearEdge> edge;  ///< Of which at least a trace is seen.
   double time_s = 0.0;           ///< From the start of the scan; 0 if absent.
-  int line = 0;                  ///< 0 if absent.
   /// Scan velocity across the beam (azimuth·cos elevation, elevation), rad/s; 0 where unknown.
   Eigen::Vector2d scan_rad_s = Eigen::Vector2d::Zero();
 };
@@ -61,8 +61,8 @@ struct RangeRow {
   BeamPoint beam;
   double measured_m = 0.0;
   double intensity = 0.0;  ///< Raw.
-  Print print = Print::kWhite;
   double sigma_m = 0.0;
+  Print print = Print::kWhite;
   LocalPrint seen = {};  ///< The print where it was predicted last.
 };
 

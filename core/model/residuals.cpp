@@ -13,13 +13,11 @@
 namespace lvcalib {
 namespace {
 
-void push(double value, double sigma, int scene, std::size_t row, const NuisanceRow& nuisance,
-          ChannelResiduals& out) {
+void push(double value, double sigma, int scene, std::size_t row, ChannelResiduals& out) {
   out.values.push_back(value);
   out.sigma.push_back(sigma);
   out.scene.push_back(scene);
   out.row.push_back(row);
-  out.nuisance.push_back(nuisance);
 }
 
 // What the print tells of a row, and the row's standard deviation.
@@ -31,8 +29,8 @@ struct Measured {
 // Rows of a channel that see the print, scene by scene in parts of even length on all threads.
 // `predict` gives what is measured of a row.
 template <class Row, class Predict>
-void push_print(const FittedModel& model, const std::vector<Row>& rows, const RunContext& context,
-                const Predict& predict, ChannelResiduals& out) {
+void push_print(const FittedModel& model, const std::vector<Row>& rows, bool with_nuisance,
+                const RunContext& context, const Predict& predict, ChannelResiduals& out) {
   constexpr std::size_t kPart = 4096;  // Some milliseconds of work, far above what a thread costs.
   std::vector<std::size_t> starts;
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -49,13 +47,16 @@ void push_print(const FittedModel& model, const std::vector<Row>& rows, const Ru
     for (std::size_t k = starts[part]; k < end; ++k) {
       const Measured measured = predict(print, rows[k]);
       if (!measured.row) continue;
-      NuisanceRow nuisance;
-      nuisance << measured.row->by_board_pose, measured.row->by_levels;
-      push(measured.row->residual, measured.sigma, scene, k, nuisance, parts[part]);
+      push(measured.row->residual, measured.sigma, scene, k, parts[part]);
+      if (!with_nuisance) continue;
+      parts[part].nuisance.emplace_back();
+      parts[part].nuisance.back() << measured.row->by_board_pose, measured.row->by_levels;
     }
   });
   const auto join = [&](auto ChannelResiduals::*values) {
-    (out.*values).reserve(rows.size());
+    std::size_t size = 0;
+    for (const ChannelResiduals& part : parts) size += (part.*values).size();
+    (out.*values).reserve(size);
     for (ChannelResiduals& part : parts) {
       (out.*values).insert((out.*values).end(), (part.*values).begin(), (part.*values).end());
       (part.*values) = {};
@@ -69,7 +70,8 @@ void push_print(const FittedModel& model, const std::vector<Row>& rows, const Ru
 }
 
 void push_corners(const MeasurementTable& table, const ModelState& state,
-                  const std::vector<EffectInUse>& in_use, ChannelResiduals& out) {
+                  const std::vector<EffectInUse>& in_use, bool with_nuisance,
+                  ChannelResiduals& out) {
   const EffectColumnsList columns = columns_in_use(in_use, table);
   EffectRows rows(table, columns.list());
   for (std::size_t k = 0; k < table.corner.size(); ++k) {
@@ -85,26 +87,25 @@ void push_corners(const MeasurementTable& table, const ModelState& state,
                     residual -= by[j] * in_use[at].values(static_cast<Eigen::Index>(j));
                 });
     for (int axis = 0; axis < 2; ++axis) {
-      NuisanceRow nuisance = NuisanceRow::Zero();
-      nuisance.head<6>() = p->by_pose.row(axis).transpose();
-      push(residual(axis), r.sigma_px, r.scene, k, nuisance, out);
+      push(residual(axis), r.sigma_px, r.scene, k, out);
+      if (!with_nuisance) continue;
+      out.nuisance.emplace_back(NuisanceRow::Zero());
+      out.nuisance.back().head<6>() = p->by_pose.row(axis).transpose();
     }
   }
 }
 
-}  // namespace
-
 ChannelResiduals residuals_of(const MeasurementTable& table, const ModelState& state,
                               const std::vector<EffectInUse>& in_use, Channel channel,
-                              const RunContext& context) {
+                              bool with_nuisance, const RunContext& context) {
   ChannelResiduals out;
   out.channel = channel;
   const auto fill = [&](const auto& rows, const auto& predict) {
-    push_print({table, state, in_use}, rows, context, predict, out);
+    push_print({table, state, in_use}, rows, with_nuisance, context, predict, out);
   };
   switch (channel) {
     case Channel::kCorner:
-      push_corners(table, state, in_use, out);
+      push_corners(table, state, in_use, with_nuisance, out);
       break;
     case Channel::kRange:
       fill(table.range, [](PrintRows& print, const RangeRow& r) {
@@ -125,11 +126,25 @@ ChannelResiduals residuals_of(const MeasurementTable& table, const ModelState& s
   return out;
 }
 
+}  // namespace
+
+ChannelResiduals residuals_of(const MeasurementTable& table, const ModelState& state,
+                              const std::vector<EffectInUse>& in_use, Channel channel,
+                              const RunContext& context) {
+  return residuals_of(table, state, in_use, channel, false, context);
+}
+
+ChannelResiduals residuals_and_nuisance(const MeasurementTable& table, const ModelState& state,
+                                        const std::vector<EffectInUse>& in_use, Channel channel,
+                                        const RunContext& context) {
+  return residuals_of(table, state, in_use, channel, true, context);
+}
+
 EveryResidual every_residual(const MeasurementTable& table, const ModelState& state,
                              const std::vector<EffectInUse>& in_use, const RunContext& context) {
   EveryResidual out;
   for (std::size_t k = 0; k < kChannels && !context.stopped(); ++k)
-    out[k] = residuals_of(table, state, in_use, kAllChannels[k], context);
+    out[k] = residuals_and_nuisance(table, state, in_use, kAllChannels[k], context);
   return out;
 }
 

@@ -18,15 +18,20 @@ struct ChannelResiduals {
   std::vector<double> values;
   std::vector<double> sigma;
   std::vector<int> scene;
-  std::vector<std::size_t> row;       ///< Row of the table's channel.
-  std::vector<NuisanceRow> nuisance;  ///< Derivative by pose and levels.
+  std::vector<std::size_t> row;  ///< Row of the table's channel.
+  /// Derivative by pose and levels; three quarters of the memory, so only there where asked for.
+  std::vector<NuisanceRow> nuisance;
 };
-/// On the context's threads; incomplete when stopped.
+/// Without derivatives. On the context's threads; incomplete when stopped.
 ChannelResiduals residuals_of(const MeasurementTable& table, const ModelState& state,
                               const std::vector<EffectInUse>& in_use, Channel channel,
                               const RunContext& context = {});
+/// The same with derivatives.
+ChannelResiduals residuals_and_nuisance(const MeasurementTable& table, const ModelState& state,
+                                        const std::vector<EffectInUse>& in_use, Channel channel,
+                                        const RunContext& context = {});
 
-/// Those of every channel, in the order of Channel. Incomplete when stopped.
+/// Those of every channel with derivatives, in the order of Channel. Incomplete when stopped.
 using EveryResidual = std::array<ChannelResiduals, kChannels>;
 EveryResidual every_residual(const MeasurementTable& table, const ModelState& state,
                              const std::vector<EffectInUse>& in_use, const RunContext& context);

@@ -72,7 +72,7 @@ void EffectSearch::ask_structure() {
     const auto k = static_cast<std::size_t>(channel);
     if (!found[k]) {
       EveryResidual residuals;
-      residuals[k] = residuals_of(table(), state_, model(), channel, context_);
+      residuals[k] = residuals_and_nuisance(table(), state_, model(), channel, context_);
       found[k] = notable_of(scan_structure(table(), std::move(residuals), context_), *options_);
     }
     return *found[k];
@@ -135,8 +135,8 @@ bool EffectSearch::leaves_a_place(const Candidate& candidate,
   trial.add(tried.effect, tried.shape);
   return std::ranges::any_of(places, [&](const StructureScore& place) {
     if (context_.stopped()) return false;
-    ChannelResiduals left =
-        residuals_of(trial.table(), trial.state(), trial.model(), place.channel, context_);
+    ChannelResiduals left = residuals_and_nuisance(trial.table(), trial.state(), trial.model(),
+                                                   place.channel, context_);
     return place_score(place, trial.table(), std::move(left)) > kMost * place.score;
   });
 }

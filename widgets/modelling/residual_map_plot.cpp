@@ -95,10 +95,6 @@ void ResidualMapPlot::setSelected(std::vector<std::size_t> rows) {
   rebuild();
 }
 
-void ResidualMapPlot::setBrushing(bool brushing) {
-  setSelectionRectMode(brushing ? QCP::srmCustom : QCP::srmNone);
-}
-
 const ResidualMap* ResidualMapPlot::map() const {
   if (!view_) return nullptr;
   const ResidualMap& map = plane_ == Plane::kImage   ? view_->image

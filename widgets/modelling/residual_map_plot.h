@@ -20,7 +20,6 @@ class ResidualMapPlot : public PlotView {
   ResidualMapPlot(Plane plane, QWidget* parent = nullptr);
   void setView(std::shared_ptr<const ChannelView> view);
   void setSelected(std::vector<std::size_t> rows);
-  void setBrushing(bool brushing);
   /// Names of the covariates along the axes.
   [[nodiscard]] const char* xName() const;
   [[nodiscard]] const char* yName() const;

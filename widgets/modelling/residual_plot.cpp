@@ -74,10 +74,6 @@ void ResidualPlot::setOverlayScale(double scale) {
   rebuild();
 }
 
-void ResidualPlot::setBrushing(bool brushing) {
-  setSelectionRectMode(brushing ? QCP::srmCustom : QCP::srmNone);
-}
-
 void ResidualPlot::setSelected(std::vector<std::size_t> rows) {
   selected_ = std::move(rows);
   rebuild();

@@ -24,8 +24,6 @@ class ResidualPlot : public PlotView {
   void setOverlayScale(double scale);
   /// Shows the means at full height instead of the whole scatter.
   void setMeansOnly(bool on);
-  /// Dragging selects instead of moving the plot.
-  void setBrushing(bool brushing);
   /// Emphasises residuals, by index.
   void setSelected(std::vector<std::size_t> rows);
 

@@ -43,6 +43,7 @@ QImage apply_levels(const QImage& image, const ImageLevels& levels) {
     return out;
   }
   QImage out = image.convertToFormat(QImage::Format_RGB32);
+  if (levels.black == 0.0 && levels.white == 1.0) return out;  // Shares the image's memory.
   const auto table = level_table(levels, 256);
   for (int y = 0; y < out.height(); ++y) {
     auto* line = reinterpret_cast<QRgb*>(out.scanLine(y));

@@ -24,6 +24,7 @@ PlotView::PlotView(QWidget* parent) : QCustomPlot(parent), colors_(PlotColors::o
   // Else each figure of a page brings the whole window onto the screen for itself.
   setPlottingHint(QCP::phImmediateRefresh, false);
   setMinimumSize(90, 70);
+  setBrushing(false);
   actions_ = new FigureActions(this, {"figure", [this] { return toPixmap(0, 0, 2.0).toImage(); },
                                       [this] { return pdf(); }, [this] { return csv(); }});
   applyColors();
@@ -37,6 +38,12 @@ QByteArray PlotView::csv() const {
   QString text = header_.join(',') + '\n';
   for (const QStringList& row : rows) text += row.join(',') + '\n';
   return text.toUtf8();
+}
+
+// A picture of its own for the rectangle, as large as the figure, only while there may be one.
+void PlotView::setBrushing(bool brushing) {
+  setSelectionRectMode(brushing ? QCP::srmCustom : QCP::srmNone);
+  layer(QStringLiteral("overlay"))->setMode(brushing ? QCPLayer::lmBuffered : QCPLayer::lmLogical);
 }
 
 void PlotView::resetView() {

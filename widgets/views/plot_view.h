@@ -26,6 +26,8 @@ class PlotView : public QCustomPlot {
   [[nodiscard]] const PlotColors& colors() const { return colors_; }
   /// What the figure says its colours and signs are; empty if nothing has to be said.
   [[nodiscard]] std::vector<LegendEntry> legendEntries() const;
+  /// While brushing, a drag draws a rectangle instead of moving the figure.
+  void setBrushing(bool brushing);
 
  public Q_SLOTS:
   /// Back to the whole range.

@@ -33,10 +33,6 @@ SampleMapPlot::SampleMapPlot(QWidget* parent) : BoardFigure(parent) {
   });
 }
 
-void SampleMapPlot::setBrushing(bool brushing) {
-  setSelectionRectMode(brushing ? QCP::srmCustom : QCP::srmNone);
-}
-
 void SampleMapPlot::setPart(const std::optional<BoardOutline>& part) {
   part_ = part;
   rebuild();

@@ -16,8 +16,6 @@ class SampleMapPlot : public BoardFigure {
  public:
   explicit SampleMapPlot(QWidget* parent = nullptr);
   void setScope(const ResponseScope& scope);
-  /// On: a drag draws a rectangle instead of moving the picture.
-  void setBrushing(bool brushing);
   /// A part of the board that is marked; none: none.
   void setPart(const std::optional<BoardOutline>& part);
 

@@ -20,7 +20,7 @@ ClosedForm form_of(const std::function<double(const BeamPoint&)>& planted, const
   test::Disturbance wrong;
   wrong.range_m = planted;
   const auto made = test::synthetic_table({}, wrong);
-  const auto residuals = residuals_of(made.table, made.truth, {}, Channel::kRange);
+  const auto residuals = residuals_and_nuisance(made.table, made.truth, {}, Channel::kRange);
   for (const Covariate& c : covariates_of(made.table, Channel::kRange, residuals)) {
     if (c.name == covariate) return closed_form_of(c, Channel::kRange, residuals, 6);
   }

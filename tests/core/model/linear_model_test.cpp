@@ -92,7 +92,7 @@ TEST(Linearize, PoseColumnsAreTheDerivativesOfTheResiduals) {
   recipe.range_rows = 60;
   const auto made = test::synthetic_table(recipe);
   for (const Channel channel : {Channel::kCorner, Channel::kRange, Channel::kBoundary}) {
-    const auto base = residuals_of(made.table, made.truth, {}, channel);
+    const auto base = residuals_and_nuisance(made.table, made.truth, {}, channel);
     for (int k = 0; k < 6; ++k) {
       Vector6d xi = Vector6d::Zero();
       xi(k) = 1e-6;

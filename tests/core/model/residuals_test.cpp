@@ -22,7 +22,10 @@ TEST(Residuals, AtTheTruthAreTheNoise) {
     EXPECT_EQ(r.sigma.size(), r.values.size());
     EXPECT_EQ(r.scene.size(), r.values.size());
     EXPECT_EQ(r.row.size(), r.values.size());
-    EXPECT_EQ(r.nuisance.size(), r.values.size());
+    EXPECT_TRUE(r.nuisance.empty());
+    const auto more = residuals_and_nuisance(made.table, made.truth, {}, channel);
+    EXPECT_EQ(more.values, r.values);
+    EXPECT_EQ(more.nuisance.size(), r.values.size());
     const double expected = sigma[static_cast<std::size_t>(channel)];
     // Six standard errors of an RMS.
     const double error = 6.0 * expected / std::sqrt(2.0 * static_cast<double>(r.values.size()));
@@ -86,7 +89,7 @@ TEST(Residuals, CornersOutsideTheCamerasReachAreLeftOut) {
 
 TEST(Residuals, IntensityRefersToTheLevelOfItsPrint) {
   const auto made = test::synthetic_table({});
-  const auto r = residuals_of(made.table, made.truth, {}, Channel::kIntensity);
+  const auto r = residuals_and_nuisance(made.table, made.truth, {}, Channel::kIntensity);
   for (std::size_t k = 0; k < 50; ++k) {
     const IntensityRow& row = made.table.intensity[r.row[k]];
     const double level = row.print == Print::kWhite ? 100.0 : 10.0;

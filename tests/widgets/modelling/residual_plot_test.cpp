@@ -83,7 +83,10 @@ TEST(ResidualPlotTest, BrushingGivesTheAreaInAxisUnits) {
   plot.setFigure(figure("range"));
   plot.show();
   plot.replot();
+  // The rectangle has a picture of its own only while there may be one.
+  EXPECT_EQ(plot.layer("overlay")->mode(), QCPLayer::lmLogical);
   plot.setBrushing(true);
+  EXPECT_EQ(plot.layer("overlay")->mode(), QCPLayer::lmBuffered);
   QSignalSpy brushed(&plot, &ResidualPlot::brushed);
   const QPoint from(static_cast<int>(plot.xAxis->coordToPixel(2.0)),
                     static_cast<int>(plot.yAxis->coordToPixel(10.0)));

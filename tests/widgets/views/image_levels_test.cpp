@@ -46,6 +46,13 @@ TEST(ImageLevels, ColourStaysColour) {
   EXPECT_EQ(qBlue(out), 0);
 }
 
+TEST(ImageLevels, AnImageAsItIsTakesNoMemoryOfItsOwn) {
+  QImage image(2, 2, QImage::Format_RGB32);
+  image.fill(qRgb(100, 50, 0));
+  EXPECT_EQ(apply_levels(image, {}).constBits(), image.constBits());
+  EXPECT_NE(apply_levels(image, {0.0, 0.5}).constBits(), image.constBits());
+}
+
 TEST(ImageLevels, AutomaticLevelsEncloseThePixels) {
   QImage image(100, 100, QImage::Format_Grayscale8);
   for (int y = 0; y < 100; ++y) {

@@ -36,6 +36,7 @@
 #include "intrinsics/camera_dialog.h"
 #include "intrinsics/camera_page.h"
 #include "modelling/model_page.h"
+#include "pages/cloud_pane.h"
 #include "pages/response_page.h"
 #include "pages/scene_page.h"
 #include "pages/world_pane.h"
@@ -43,6 +44,9 @@
 #include "report/result_file.h"
 #include "start/coach_marks.h"
 #include "support/pose_matchers.h"
+#include "support/shared_data.h"
+#include "views/cloud_canvas.h"
+#include "views/cloud_pipeline.h"
 #include "views/cloud_view.h"
 #include "views/image_view.h"
 #include "widgets/workbench/main_window_fixture.h"
@@ -440,6 +444,25 @@ TEST_F(MainWindowTest, APartOfTheBoardIsLeftOutOfOneSceneOrOfAll) {
   ASSERT_TRUE(trigger(*window_, "undo"));
   EXPECT_EQ(patches("A"), 0U);
   ASSERT_TRUE(wait_until([&] { return !workspace().busy(); }));
+}
+
+// Before anything is calibrated, whatever the LiDAR; rigs of others are passed over where they are
+// not there.
+TEST_F(MainWindowTest, TheWindowFramesTheBoardOnOpening) {
+  for (const std::filesystem::path& rig :
+       {std::filesystem::path(dataset().toStdString()), test::shared_rig("simulated/clean-avia"),
+        test::shared_rig("simulated/walk-rosette"), test::shared_rig("real/vlp16-checkerboard")}) {
+    if (!std::filesystem::exists(rig)) continue;
+    window_ = std::make_unique<MainWindow>(*settings_, answers_);
+    window_->show();
+    const widgets::CloudView* view = window_->findChild<widgets::ScenePage*>()->cloudPane()->view();
+    window_->open(QString::fromStdString(rig.string()));
+    ASSERT_TRUE(wait_until([&] { return view->scene() && view->scene()->board_is_likely; })) << rig;
+    EXPECT_FALSE(workspace().result());
+    if (!view->hasOpenGl()) continue;
+    const Eigen::Vector3d focus_m = view->canvas()->pipeline().viewer().focus_m;
+    EXPECT_LT((focus_m - view->scene()->board_center_m).norm(), 1e-6) << rig;
+  }
 }
 
 TEST_F(MainWindowTest, AFolderDroppedOnTheWindowOpensAndIsRemembered) {

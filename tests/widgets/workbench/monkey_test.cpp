@@ -20,6 +20,7 @@
 #include <gtest/gtest.h>
 
 #include "runner/demo.h"
+#include "support/shared_data.h"
 #include "widgets/support/driver.h"
 
 namespace lvcalib::monkey_test {
@@ -219,13 +220,9 @@ class MonkeyTest : public ::testing::TestWithParam<const char*> {
  protected:
   // A copy of a rig that this project did not make: what the monkey breaks is its own.
   std::optional<fs::path> copy_of(const std::string& rig) const {
-    const char* set = std::getenv("LVCALIB_SHARED_DATA");
-    const fs::path data = set != nullptr
-                              ? fs::path(set)
-                              : fs::path(LVCALIB_SOURCE_DIR).parent_path() / "shared" / "data";
     std::error_code code;
     const fs::path copy = folder() / fs::path(rig).filename();
-    fs::copy(data / rig, copy, fs::copy_options::recursive, code);
+    fs::copy(test::shared_rig(rig), copy, fs::copy_options::recursive, code);
     return code ? std::nullopt : std::optional(copy);
   }
   [[nodiscard]] fs::path folder() const { return folder_.path().toStdString(); }
@@ -322,7 +319,8 @@ std::string short_name(const ::testing::TestParamInfo<const char*>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Rigs, MonkeyTest,
                          ::testing::Values("demo", "simulated/walk-rosette",
-                                           "simulated/mystery-rosette", "real/vlp16-checkerboard"),
+                                           "simulated/mystery-rosette", "simulated/clean-avia",
+                                           "real/vlp16-checkerboard"),
                          short_name);
 
 }  // namespace

@@ -133,10 +133,18 @@ TEST_F(WindowMarksTest, SixScenesFitIntoMemory) {
   RecordProperty("window_peak_mb", static_cast<int>(peak_mb));
   EXPECT_LT(now_mb, 600.0);
   EXPECT_LT(peak_mb, 600.0);
-  // The measurements as an added effect sorts them are a second table of 56 MB.
+  // The measurements as an added effect sorts them are a second table of 55 MB.
+  auto* tabs = test::find<QTabWidget>(*window_, "pages");
+  tabs->setCurrentIndex(4);
+  QTest::qWait(500);
   forget_peak();
   ASSERT_TRUE(add());
   ASSERT_TRUE(wait_for_model());
+  for (int page = 0; page < tabs->count(); ++page) {
+    tabs->setCurrentIndex(page);
+    QTest::qWait(500);
+    tell("page " + tabs->tabText(page).toStdString());
+  }
   const double peak_added_mb = process_mb("VmHWM");
   malloc_trim(0);
   const double added_mb = process_mb("VmRSS");
@@ -144,6 +152,7 @@ TEST_F(WindowMarksTest, SixScenesFitIntoMemory) {
   RecordProperty("added_mb", static_cast<int>(added_mb));
   RecordProperty("peak_added_mb", static_cast<int>(peak_added_mb));
   EXPECT_LT(added_mb, 600.0);
+  EXPECT_LT(peak_added_mb, 600.0);
 }
 
 // How long an added effect takes until every page has it, and what the window does not answer
