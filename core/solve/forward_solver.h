@@ -70,8 +70,8 @@ struct ForwardSceneResult {
 struct ForwardSolution {
   /// Covariance of the left perturbation in the camera frame, shared errors included.
   UncertainRigid3 camera_from_lidar;
-  /// Student's, by Satterthwaite's approximation: how well the variances of shared errors and of the
-  /// corners are known.
+  /// Student's, by Satterthwaite's approximation: how well the variances of shared errors and of
+  /// the corners are known.
   double dof = 0.0;
   ForwardState state;
   ForwardNoise noise;
