@@ -356,9 +356,9 @@ class LidarRows {
     out.squares += robust * intensity * intensity;
     out.residual_squares += robust * e * e;
     note_noise(p.white, e, sigma, 2, out);
-    out.fit.jitter.add(by_angle, e,
-                       plain * plain + bent_variance(p.intensity_by_blur, state_.beam.jitter_rad2),
-                       variance);
+    const Eigen::Matrix2d& jitter = state_.beam.jitter_rad2;
+    out.fit.jitter.add(e, variance, variance_by_jitter(by_angle, p.intensity_by_blur, jitter),
+                       jitter);
   }
 
   [[nodiscard]] double time_s(std::size_t k) const {

@@ -177,10 +177,9 @@ JitterRegression SceneRows::scatter() const {
   JitterRegression out;
   for (const Return& r : returns_) {
     if (r.by_angle.isZero()) continue;
-    const double plain = plain_sigma(r);
-    out.add(r.by_angle, r.intensity - r.predicted,
-            plain * plain + bent_variance(r.by_blur, jitter_rad2_),
-            intensity_variance(plain, r.by_angle, r.by_blur, jitter_rad2_));
+    out.add(r.intensity - r.predicted,
+            intensity_variance(plain_sigma(r), r.by_angle, r.by_blur, jitter_rad2_),
+            variance_by_jitter(r.by_angle, r.by_blur, jitter_rad2_), jitter_rad2_);
   }
   return out;
 }

@@ -26,6 +26,17 @@ inline double bent_variance(const Eigen::RowVector3d& by_blur, const Eigen::Matr
   return 2.0 * std::max(0.0, (bent * bent).trace());
 }
 
+/// How the variance of an intensity changes with the jitter's along each of the beam's angles.
+inline Eigen::Vector2d variance_by_jitter(const Eigen::RowVector2d& by_angle,
+                                          const Eigen::RowVector3d& by_blur,
+                                          const Eigen::Matrix2d& jitter_rad2) {
+  const Eigen::Array3d bend2 = by_blur.transpose().array().square();
+  const double h = jitter_rad2(0, 0);
+  const double v = jitter_rad2(1, 1);
+  return {by_angle(0) * by_angle(0) + 4.0 * bend2(0) * h + bend2(1) * v,
+          by_angle(1) * by_angle(1) + 4.0 * bend2(2) * v + bend2(1) * h};
+}
+
 /// Variance of a return's intensity: that on plain print, whose standard deviation is
 /// `plain_sigma`, and what the pointing jitter makes of it where the intensity changes with the
 /// beam's direction.

@@ -18,13 +18,15 @@ const Eigen::Matrix2d kBlur_rad2 = 2e-6 * Eigen::Matrix2d::Identity();
 JitterRegression scattered(double horizontal_rad, double vertical_rad, std::uint64_t seed) {
   Random random(seed);
   JitterRegression out;
+  const Eigen::Matrix2d assumed =
+      Eigen::Vector2d(horizontal_rad * horizontal_rad, vertical_rad * vertical_rad).asDiagonal();
   for (int k = 0; k < 20000; ++k) {
     const double angle = 2.0 * M_PI * random.uniform();
     const Eigen::RowVector2d by_angle =
         300.0 * Eigen::RowVector2d(std::cos(angle), std::sin(angle));
     const double jitter = std::hypot(by_angle(0) * horizontal_rad, by_angle(1) * vertical_rad);
     const double variance = kPlain * kPlain + jitter * jitter;
-    out.add(by_angle, std::sqrt(variance) * random.normal(), kPlain * kPlain, variance);
+    out.add(std::sqrt(variance) * random.normal(), variance, by_angle.cwiseAbs2(), assumed);
   }
   return out;
 }
