@@ -313,8 +313,7 @@ class LidarRows {
                      Accumulator& out) {
     const double plain = noise_between(noise_.intensity_white, noise_.intensity_black, p.white);
     const Eigen::RowVector2d& by_angle = p.intensity_by_angle;
-    const double variance =
-        intensity_variance(plain, by_angle, p.intensity_by_blur, state_.beam.jitter_rad2);
+    const double variance = intensity_variance(plain, by_angle, state_.beam.jitter_rad2);
     const double sigma = std::sqrt(variance);
     SparseRow row;
     for (Eigen::Index i = 0; i < 6; ++i) row.add(i, p.intensity_by_pose(i));
@@ -356,9 +355,7 @@ class LidarRows {
     out.squares += robust * intensity * intensity;
     out.residual_squares += robust * e * e;
     note_noise(p.white, e, sigma, 2, out);
-    const Eigen::Matrix2d& jitter = state_.beam.jitter_rad2;
-    out.fit.jitter.add(e, variance, variance_by_jitter(by_angle, p.intensity_by_blur, jitter),
-                       jitter);
+    out.fit.jitter.add(by_angle, e, plain * plain, variance);
   }
 
   [[nodiscard]] double time_s(std::size_t k) const {

@@ -7,13 +7,14 @@
 
 namespace lvcalib {
 
-void JitterRegression::add(double residual, double variance, const Eigen::Vector2d& by_jitter,
-                           const Eigen::Matrix2d& assumed_rad2) {
-  const double beyond = std::min(residual * residual, kCut * kCut * variance) / kCutMean -
-                        variance + by_jitter.dot(assumed_rad2.diagonal());
+void JitterRegression::add(const Eigen::RowVector2d& by_angle, double residual,
+                           double plain_variance, double variance) {
+  const Eigen::Vector2d g = by_angle.transpose().cwiseAbs2();
+  const double beyond =
+      std::min(residual * residual, kCut * kCut * variance) / kCutMean - plain_variance;
   const double weight = 1.0 / (variance * variance);
-  normal_ += weight * by_jitter * by_jitter.transpose();
-  sums_ += weight * beyond * by_jitter;
+  normal_ += weight * g * g.transpose();
+  sums_ += weight * beyond * g;
 }
 
 void JitterRegression::add(const JitterRegression& other) {

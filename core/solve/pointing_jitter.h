@@ -12,14 +12,15 @@ namespace lvcalib {
 inline constexpr double kCut = 3.0;
 inline constexpr double kCutMean = 0.9904;
 
-/// What intensities scatter at the edges of the print beyond plain print, by the jitter's variances
-/// along the beam's two angles (rad²): a step of Fisher's scoring from those that are assumed.
+/// What intensities scatter at the edges of the print beyond plain print: the variance of one is
+/// σ² + Σ g² j, g how it changes with each of the beam's angles (1/rad), j the jitter's variance
+/// along it (rad²).
 class JitterRegression {
  public:
-  /// An intensity with its residual, the variance that it has under the jitter assumed, and how
-  /// that changes with it (see variance_by_jitter()).
-  void add(double residual, double variance, const Eigen::Vector2d& by_jitter,
-           const Eigen::Matrix2d& assumed_rad2);
+  /// An intensity with its residual, `by_angle` = g, σ² on plain print and the variance that it is
+  /// thought to have.
+  void add(const Eigen::RowVector2d& by_angle, double residual, double plain_variance,
+           double variance);
   void add(const JitterRegression& other);
   /// Covariance of the jitter, rad², beam frame: never negative, never more than the whole blur.
   /// Nothing where no edge was seen.

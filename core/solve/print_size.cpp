@@ -124,8 +124,8 @@ std::optional<SizeStep> take_step(const SeenBoard& board, std::vector<Place>& pl
     if (!p) continue;
     const double plain =
         noise_between(board.noise.intensity_white, board.noise.intensity_black, p->white);
-    const double variance = intensity_variance(plain, p->intensity_by_angle, p->intensity_by_blur,
-                                               board.beam.jitter_rad2);
+    const double variance =
+        intensity_variance(plain, p->intensity_by_angle, board.beam.jitter_rad2);
     const double e = place.intensity - p->intensity;
     const double z = e / std::sqrt(variance);
     const double w = huber_weight(z, 3.0) / variance;

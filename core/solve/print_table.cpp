@@ -160,15 +160,12 @@ class TableMaker {
 
   // What an effect explains is no jitter.
   static void tell_jitter(const ModelState& state, Rows& rows, MeasurementTable& table) {
-    constexpr int kSteps = 3;  // Of scoring, which doubles the right digits in each.
-    for (int step = 0; step < kSteps; ++step) {
-      JitterRegression jitter;
-      for (const auto& scene : rows) jitter.add(scene->scatter());
-      const auto found = jitter.jitter_rad2(state.beam.blur_rad2);
-      if (!found) return;
-      table.placed_by.beam.jitter_rad2 = *found;
-      for (auto& scene : rows) scene->set_jitter(*found);
-    }
+    JitterRegression jitter;
+    for (const auto& scene : rows) jitter.add(scene->scatter());
+    const auto found = jitter.jitter_rad2(state.beam.blur_rad2);
+    if (!found) return;
+    table.placed_by.beam.jitter_rad2 = *found;
+    for (auto& scene : rows) scene->set_jitter(*found);
   }
 
   [[nodiscard]] bool all_have_lines() const {

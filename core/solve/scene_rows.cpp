@@ -177,9 +177,9 @@ JitterRegression SceneRows::scatter() const {
   JitterRegression out;
   for (const Return& r : returns_) {
     if (r.by_angle.isZero()) continue;
-    out.add(r.intensity - r.predicted,
-            intensity_variance(plain_sigma(r), r.by_angle, r.by_blur, jitter_rad2_),
-            variance_by_jitter(r.by_angle, r.by_blur, jitter_rad2_), jitter_rad2_);
+    const double plain = plain_sigma(r);
+    out.add(r.by_angle, r.intensity - r.predicted, plain * plain,
+            intensity_variance(plain, r.by_angle, jitter_rad2_));
   }
   return out;
 }
@@ -276,7 +276,6 @@ void SceneRows::describe_print(const ReturnPrediction& p, const BeamSpread& beam
   r.intensity = intensity;
   r.predicted = gain * p.intensity;
   r.by_angle = gain * p.intensity_by_angle;
-  r.by_blur = gain * p.intensity_by_blur;
   const PrintView view = view_print(p, levels_, beam);
   r.print = view.kind;
   r.slope = view.slope;
@@ -354,7 +353,7 @@ double SceneRows::plain_sigma(const Return& r) const {
 }
 
 double SceneRows::intensity_sigma(const Return& r) const {
-  const double variance = intensity_variance(plain_sigma(r), r.by_angle, r.by_blur, jitter_rad2_);
+  const double variance = intensity_variance(plain_sigma(r), r.by_angle, jitter_rad2_);
   return robust_sigma(std::sqrt(variance), r.intensity - r.predicted);
 }
 

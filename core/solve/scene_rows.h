@@ -63,7 +63,6 @@ class SceneRows {
     double slope = 0.0;        // Of the intensity across the edge, per metre.
     PrintView::Kind print = PrintView::Kind::kPlain;
     Eigen::RowVector2d by_angle = Eigen::RowVector2d::Zero();  // Of the intensity, per radian.
-    Eigen::RowVector3d by_blur = Eigen::RowVector3d::Zero();   // The same by the beam's blur.
     LocalPrint seen;    // The print at the place that the ray meets,
     LocalPrint moved;   // at the one that effects displace under its light,
     LocalPrint ranged;  // and under what is ranged.
