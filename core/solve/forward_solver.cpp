@@ -488,7 +488,7 @@ void last_step(const ForwardRun& in, Iteration& it) {
 
 // As many residuals as tell the corners' noise, the boards' poses taken off.
 double corner_freedom(const std::vector<SceneFit>& fits) {
-  constexpr double kPose = 6.0;
+  constexpr double kPose = 6.0;  // Unknowns of one.
   double freedom = 0.0;
   for (const SceneFit& fit : fits)
     freedom += std::max(0.0, static_cast<double>(fit.corner_rows) - kPose);
@@ -523,7 +523,8 @@ double satterthwaite(const ForwardRun& in, Iteration& it) {
     varied[k] *= 1.0 + kStep;
     add(it.equations, varied, it.last.determined[k]);
   }
-  // Where many corners tell their noise the rows need not be linearized once more.
+  // With so many residuals Student's quantiles are the normal ones to a hundredth, and the rows
+  // need not be linearized once more.
   constexpr double kManyCorners = 200.0;
   if (const double freedom = corner_freedom(it.fits); freedom > 0.0 && freedom < kManyCorners) {
     ForwardNoise varied = it.noise;
