@@ -83,7 +83,7 @@ std::optional<Error> wrong_size(const CalibrationInput& in, Calibration& run) {
   const auto scale = find_scaled_board(in.dataset, in.request, run.result, in.context);
   if (in.context.stopped()) return Error::cancelled();
   // A board of the right size was found before, and refused for another reason.
-  constexpr double kSame = 0.005;
+  constexpr double kSame = 0.005;  // Less rounds to no per cent, in which the size is told.
   if (!scale || std::abs(*scale - 1.0) < kSame) return std::nullopt;
   constexpr double kSameUnit = 0.05;  // The size is measured to some per cent, units lie afar.
   for (const LengthUnit& unit : other_length_units()) {

@@ -523,9 +523,8 @@ double satterthwaite(const ForwardRun& in, Iteration& it) {
     varied[k] *= 1.0 + kStep;
     add(it.equations, varied, it.last.determined[k]);
   }
-  // With so many residuals Student's quantiles are the normal ones to a hundredth, and the rows
-  // need not be linearized once more.
-  constexpr double kManyCorners = 200.0;
+  // With many residuals the rows need not be linearized once more.
+  constexpr double kManyCorners = 200.0;  // Student's 97.5 % is the normal one's to a hundredth.
   if (const double freedom = corner_freedom(it.fits); freedom > 0.0 && freedom < kManyCorners) {
     ForwardNoise varied = it.noise;
     varied.corner_px *= std::sqrt(1.0 + kStep);
