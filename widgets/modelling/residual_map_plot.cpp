@@ -83,9 +83,10 @@ const char* ResidualMapPlot::yName() const {
   return plane_ == Plane::kImage ? "image y" : plane_ == Plane::kBoard ? "board y" : "elevation";
 }
 
-void ResidualMapPlot::setView(std::shared_ptr<const ChannelView> view) {
-  if (view == view_) return;
+void ResidualMapPlot::setView(std::shared_ptr<const ChannelView> view, const QString& message) {
+  if (view == view_ && message == message_) return;
   view_ = std::move(view);
+  message_ = message;
   selected_.clear();
   rebuild();
 }
@@ -120,9 +121,10 @@ void ResidualMapPlot::rebuild() {
   if (shown == nullptr) {
     xAxis->setLabel({});
     yAxis->setLabel({});
-    showMessage(plane_ == Plane::kImage    ? tr("only corners lie in the image")
-                : plane_ == Plane::kAngles ? tr("corners have no direction")
-                                           : tr("no data"));
+    showMessage(!view_ && !message_.isEmpty() ? message_
+                : plane_ == Plane::kImage     ? tr("only corners lie in the image")
+                : plane_ == Plane::kAngles    ? tr("corners have no direction")
+                                              : tr("no data"));
     replot(rpQueuedReplot);
     return;
   }

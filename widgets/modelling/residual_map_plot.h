@@ -18,7 +18,8 @@ class ResidualMapPlot : public PlotView {
   enum class Plane { kImage, kBoard, kAngles };
 
   ResidualMapPlot(Plane plane, QWidget* parent = nullptr);
-  void setView(std::shared_ptr<const ChannelView> view);
+  /// Without a view the message stands in its place; an empty one says what the plane lacks.
+  void setView(std::shared_ptr<const ChannelView> view, const QString& message = {});
   void setSelected(std::vector<std::size_t> rows);
   /// Names of the covariates along the axes.
   [[nodiscard]] const char* xName() const;
@@ -39,6 +40,7 @@ class ResidualMapPlot : public PlotView {
 
   Plane plane_;
   std::shared_ptr<const ChannelView> view_;
+  QString message_;
   std::vector<std::size_t> selected_;
   QCPColorScale* scale_ = nullptr;
   QSize fitted_to_;

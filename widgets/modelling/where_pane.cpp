@@ -80,6 +80,7 @@ void WherePane::createBar() {
     fillCovariates();
     Q_EMIT turned();
     ask();
+    showAwaited();
   });
   connect(covariates_, &QComboBox::currentIndexChanged, this, [this] {
     Q_EMIT turned();
@@ -155,6 +156,7 @@ void WherePane::setStep(const ModelStepPtr& step, const QString& reason) {
   fillScenes();
   if (step_) {
     ask();
+    showAwaited();
     askBoard();
   } else {
     showFigure(nullptr);
@@ -219,6 +221,7 @@ void WherePane::look(Channel channel, const QString& covariate) {
   }
   tabs_->setCurrentWidget(plot_);
   ask();
+  showAwaited();
 }
 
 void WherePane::setOverlay(const std::optional<EffectInUse>& effect, double scale) {
@@ -234,6 +237,17 @@ void WherePane::setOverlayScale(double scale) {
 
 void WherePane::ask() {
   if (step_ && covariates_->currentIndex() >= 0) source_.request(channel(), covariate(), effect_);
+}
+
+// Another channel's residuals are on their way: those of the one before say nothing of it.
+void WherePane::showAwaited() {
+  if (!step_ || covariates_->currentIndex() < 0) return;
+  if (figure_ && figure_->view->columns.channel == channel()) return;
+  const QString awaited = tr("the residuals are being collected …");
+  if (!exclude_->isHidden()) select({});
+  figure_ = nullptr;
+  plot_->setFigure(nullptr, awaited);
+  for (ResidualMapPlot* map : maps_) map->setView(nullptr, awaited);
 }
 
 void WherePane::askBoard() {
@@ -252,8 +266,9 @@ void WherePane::showFigure(const std::shared_ptr<const ResidualFigure>& figure) 
   outdated_ = false;
   figure_ = figure;
   plot_->setOverlayScale(scale_);
-  plot_->setFigure(figure, reason_);
-  for (ResidualMapPlot* map : maps_) map->setView(figure ? figure->view : nullptr);
+  const QString why = step_ ? QString() : reason_;
+  plot_->setFigure(figure, why);
+  for (ResidualMapPlot* map : maps_) map->setView(figure ? figure->view : nullptr, why);
 }
 
 // Rows whose covariates lie in the area; without `y` it is the residual itself.

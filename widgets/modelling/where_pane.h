@@ -62,6 +62,7 @@ class WherePane : public QWidget {
   void fillCovariates();
   void fillScenes();
   void ask();
+  void showAwaited();
   void askBoard();
   void showFigure(const std::shared_ptr<const ResidualFigure>& figure);
   void brush(const QString& x, const QString& y, const QRectF& area);

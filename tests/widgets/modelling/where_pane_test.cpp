@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "model_example.h"
+#include "modelling/residual_map_plot.h"
 #include "modelling/residual_plot.h"
 
 namespace lvcalib::widgets::where_pane_test {
@@ -161,10 +162,34 @@ TEST_F(Where, TheBoardsIntensityIsDrawnWhenItIsLookedAt) {
   EXPECT_EQ(pane_.findChild<QComboBox*>("board_scene")->count(), 7);
 }
 
+QString message_of(const QCustomPlot& plot) {
+  for (int k = 0; k < plot.itemCount(); ++k) {
+    if (const auto* text = qobject_cast<QCPItemText*>(plot.item(k))) return text->text();
+  }
+  return {};
+}
+
+// Neither the residuals of the channel before nor that there are none.
+TEST_F(Where, AnotherChannelIsAwaited) {
+  ASSERT_TRUE(wait_for(pane_.covariate().toUtf8().constData()));
+  const auto* image = pane_.findChild<QTabWidget*>("where_tabs")->widget(1);
+  const auto* map = qobject_cast<const ResidualMapPlot*>(image);
+  ASSERT_NE(map, nullptr);
+  EXPECT_TRUE(message_of(*map).contains("only corners")) << message_of(*map).toStdString();
+  auto* channels = pane_.findChild<QComboBox*>("channel");
+  channels->setCurrentIndex(channels->findData(static_cast<int>(Channel::kCorner)));
+  EXPECT_EQ(plot_->figure(), nullptr);
+  EXPECT_TRUE(message_of(*plot_).contains("being collected"));
+  EXPECT_TRUE(message_of(*map).contains("being collected")) << message_of(*map).toStdString();
+  EXPECT_TRUE(wait_for(pane_.covariate().toUtf8().constData()));
+  EXPECT_TRUE(message_of(*map).contains("longest arrow")) << message_of(*map).toStdString();
+}
+
 TEST_F(Where, WithoutAModelItSaysWhy) {
   source_.setSteps(nullptr, nullptr);
   pane_.setStep(nullptr, "run first");
   EXPECT_EQ(plot_->figure(), nullptr);
+  EXPECT_EQ(message_of(*plot_), "run first");
   EXPECT_FALSE(pane_.findChild<QComboBox*>("channel")->isEnabled());
 }
 
