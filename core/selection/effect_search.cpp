@@ -198,6 +198,7 @@ void EffectSearch::refit_from(Linearization start) {
   constexpr int kSteps = 15;
   joint_covariance_.reset();
   shape_sigmas_.clear();
+  with_slopes_.reset();
   ranked_ = false;
   linear_ = std::move(start);
   at_ = At::kLinear;
@@ -251,6 +252,7 @@ void EffectSearch::settle() {
   const int threads = context_.thread_count();
   stated_.reset();
   joint_covariance_.reset();
+  if (!sensor_.empty()) with_slopes_.reset();
   linear_ = sensor_.empty() ? linear_here() : linearized(fitted(), own_columns());
   at_ = At::kLinear;
   for (int step = 0; step < kSteps && !context_.stopped(); ++step) {
@@ -267,6 +269,7 @@ void EffectSearch::settle() {
       at_ = move(reference_.fit, 1.0) ? At::kFit : At::kBeyond;
       break;
     }
+    with_slopes_.reset();
     if (descend(size) == Descent::kNone) break;
   }
   if (!shape_sigmas_.empty()) estimate_joint_covariance();

@@ -40,6 +40,7 @@ class EffectSearch {
   void lay_aside() {
     context_ = {};
     forget_print();
+    with_slopes_.reset();
   }
   /// Adds an effect without asking and refits.
   void add(const EffectPtr& effect, double shape);
@@ -245,6 +246,7 @@ class EffectSearch {
   std::set<std::string> refused_;
   std::optional<Eigen::MatrixXd> joint_covariance_;
   std::vector<double> shape_sigmas_;
+  std::optional<Linearization> with_slopes_;  // That of the joint covariance, while it holds.
 };
 
 }  // namespace lvcalib

@@ -169,9 +169,12 @@ void EffectSearch::estimate_joint_covariance() {
     shaped.push_back(k);
   }
   if (shaped.empty() || context_.stopped()) return;
-  const Linearization linear = linearized(fitted(), columns);
-  if (context_.stopped()) return;
-  const ModelFit fit = fit_as_it_stands(linear, subset);
+  if (!with_slopes_) with_slopes_ = linearized(fitted(), columns);
+  if (context_.stopped()) {
+    with_slopes_.reset();
+    return;
+  }
+  const ModelFit fit = fit_as_it_stands(*with_slopes_, subset);
   const auto own = fit.covariance.rows() - static_cast<Eigen::Index>(shaped.size());
   joint_covariance_ = fit.covariance.topLeftCorner(own, own);
   shape_sigmas_.assign(in_use_.size(), 0.0);
