@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/ordinary_boards.h"
 #include "support/synthetic_table.h"
 
 namespace lvcalib {
@@ -43,6 +44,34 @@ TEST(CornerNoise, IsThatOfSingleCornersWhateverMovesTagsAsAWhole) {
   };
   const auto made = test::synthetic_table(recipe, wrong);
   EXPECT_NEAR(corner_noise(made.table, made.truth, 1.0), 0.08, 0.01);
+}
+
+// What moves them changes little from one square to the next: tilted and bent by some pixels.
+TEST(CornerNoise, OfACheckerboardIsThatOfNeighboursWhateverBendsThem) {
+  auto made = test::synthetic_table({}, {});
+  made.table.target = test::checkerboard_target();
+  made.table.corner.clear();
+  const int columns = made.table.target.corner_columns;
+  const int rows = made.table.target.corner_rows;
+  Random random(3);
+  for (int scene = 0; scene < static_cast<int>(made.truth.camera_from_board.size()); ++scene) {
+    for (int feature = 0; feature < rows * columns; ++feature) {
+      CornerRow row;
+      row.scene = scene;
+      row.feature = feature;
+      const int x = feature % columns;
+      const int y = feature / columns;
+      row.board_m = 0.05 * Eigen::Vector2d(x, y);
+      const auto p =
+          made.table.camera.project(made.truth.camera_from_board[static_cast<std::size_t>(scene)] *
+                                    Eigen::Vector3d(row.board_m.x(), row.board_m.y(), 0.0));
+      ASSERT_TRUE(p);
+      row.pixel = *p + Eigen::Vector2d(0.5 * y * y, 3.0 * x + 0.2 * x * x) +
+                  0.08 * Eigen::Vector2d(random.normal(), random.normal());
+      made.table.corner.push_back(row);
+    }
+  }
+  EXPECT_NEAR(corner_noise(made.table, made.truth, 1.0), 0.08, 0.012);
 }
 
 TEST(CornerNoise, IsTheOneGivenWhereTooFewCornersTell) {
