@@ -18,6 +18,21 @@ int RunContext::thread_count() const {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+RunContext RunContext::silent() const {
+  RunContext out = *this;
+  out.progress = nullptr;
+  return out;
+}
+
+RunContext RunContext::part(double from, double to) const {
+  RunContext out = *this;
+  if (!progress) return out;
+  out.progress = [whole = progress, from, to](const Progress& p) {
+    whole({p.stage, from + (to - from) * std::clamp(p.fraction, 0.0, 1.0), p.text});
+  };
+  return out;
+}
+
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
   const std::size_t workers =
       std::min<std::size_t>(count, static_cast<std::size_t>(std::max(1, threads)));

@@ -29,6 +29,10 @@ struct RunContext {
     if (progress) progress({std::move(stage), fraction, std::move(text)});
   }
   [[nodiscard]] bool stopped() const { return stop.stop_requested(); }
+  /// For a part of a longer work: its own progress 0…1 runs from `from` to `to` of the whole.
+  [[nodiscard]] RunContext part(double from, double to) const;
+  /// For work whose progress nobody is to hear of.
+  [[nodiscard]] RunContext silent() const;
   [[nodiscard]] int thread_count() const;
 };
 

@@ -10,8 +10,7 @@ namespace {
 Message complaint_of(const Result<GrayImage>& pixels, const Target& target, const Camera& camera,
                      const RunContext& context) {
   if (!pixels) return pixels.error().message;
-  RunContext silent = context;
-  silent.progress = nullptr;
+  const RunContext silent = context.silent();
   const auto view = find_board_in_image(*pixels, target, camera, {}, silent);
   return view ? Message() : view.error().message;
 }

@@ -37,8 +37,7 @@ Result<std::vector<BoardImage>> look_at_images(
     const std::function<Camera(int width_px, int height_px)>& camera_for,
     const DetectionOptions& options, const RunContext& context, ProgressShare share) {
   std::vector<BoardImage> out(paths.size());
-  RunContext quiet = context;
-  quiet.progress = {};
+  RunContext quiet = context.silent();
   // One thread per image where there are enough images.
   const auto count = std::max<std::size_t>(1, paths.size());
   quiet.threads = std::max(1, context.thread_count() / static_cast<int>(count));

@@ -302,8 +302,7 @@ Status look_at_rejected(const CalibrationInput& in, CalibrationResult& result) {
   const CalibrationObserver nobody;
   CalibrationRequest request = in.request;
   request.unusable = UnusableScenes::kLeaveOut;
-  RunContext quiet = in.context;
-  quiet.progress = {};
+  const RunContext quiet = in.context.silent();
   for (std::size_t s = 0; s < result.scenes.size(); ++s) {
     SceneResult& scene = result.scenes[s];
     if (!scene.rejected || in.dataset.scenes[s].problem) continue;

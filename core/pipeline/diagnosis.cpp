@@ -70,8 +70,7 @@ std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRe
     clouds.push_back(std::move(*cloud));
   }
   const PatternPyramid pyramid(dataset.target);
-  RunContext quiet = context;
-  quiet.progress = {};
+  RunContext quiet = context.silent();
   quiet.threads = 1;
   std::vector<std::vector<BoardCandidate>> found(readings.size() * seen.size());
   const auto look = [&](std::size_t reading, std::size_t k) {
@@ -161,8 +160,7 @@ std::optional<Error> diagnose_exchanged_clouds(const Dataset& dataset,
     for (std::size_t a = 0; a < b; ++a) pairs.emplace_back(a, b);
   }
   const PatternPyramid pyramid(dataset.target);
-  RunContext quiet = context;
-  quiet.progress = {};
+  RunContext quiet = context.silent();
   quiet.threads = 1;
   std::vector<int> agreeing(pairs.size(), 0);
   parallel_for(pairs.size(), context.thread_count(), [&](std::size_t p) {
@@ -212,8 +210,7 @@ std::optional<Error> diagnose_mirrored(const Dataset& dataset, const Calibration
     if (!result.scenes[s].view || context.stopped()) return;
     const auto cloud = read_scene_cloud(dataset.scenes[s], request, context.stop);
     if (!cloud) return;
-    RunContext quiet = context;
-    quiet.progress = {};
+    RunContext quiet = context.silent();
     quiet.threads = 1;
     scenes[s].candidates = search_board(read_as(*cloud, {1.0F, -1.0F, 1.0F}),
                                         {dataset.target, pyramid,

@@ -57,8 +57,7 @@ Result<FreshViews> read_fresh_views(const std::vector<FilePair>& pairs, const Ca
                                     const RunContext& context) {
   std::vector<std::optional<Result<Read>>> read(pairs.size());
   std::atomic<std::size_t> done = 0;
-  RunContext silent = context;
-  silent.progress = nullptr;
+  const RunContext silent = context.silent();
   parallel_for(pairs.size(), context.thread_count(), [&](std::size_t k) {
     if (context.stopped()) return;
     read[k] = read_pair(pairs[k], camera, rough_camera_from_lidar, silent);

@@ -68,8 +68,7 @@ std::optional<double> find_scaled_board(const Dataset& dataset, const Calibratio
   // A board turned by as much as its size is off fits nearly as well.
   ConsensusOptions loose = request.options.consensus;
   loose.systematic_rotation_rad = std::max(loose.systematic_rotation_rad, kSameSize);
-  RunContext quiet = context;
-  quiet.progress = {};
+  RunContext quiet = context.silent();
   quiet.threads = 1;
   std::optional<double> measured;
   SceneHypotheses first_scene;

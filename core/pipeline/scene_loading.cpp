@@ -45,8 +45,7 @@ class SceneLoader {
     const double load = ms_since(start);
     if (!image) return fail(s, image.error());
     start = Clock::now();
-    RunContext quiet = context_;
-    quiet.progress = {};
+    RunContext quiet = context_.silent();
     // One thread per image where there are enough images.
     quiet.threads = std::max(1, context_.thread_count() / static_cast<int>(dataset_.scenes.size()));
     auto view = find_board_in_image(*image, dataset_.target, dataset_.camera,
@@ -105,8 +104,7 @@ class SceneLoader {
       return;
     }
     start = Clock::now();
-    RunContext quiet = context_;
-    quiet.progress = {};
+    const RunContext quiet = context_.silent();
     std::optional<BoardSearchRegion> region;
     if (request_.guess) region = predicted_region(s, *request_.guess, true);
     auto search = search_board(*cloud,
@@ -221,8 +219,7 @@ Status load_extra_images(const Dataset& dataset, const CalibrationRequest& reque
   std::vector<BoardImage>& images = result.intrinsics.extra_images;
   images.assign(dataset.camera_images.size(), {});
   std::mutex mutex;
-  RunContext quiet = context;
-  quiet.progress = {};
+  RunContext quiet = context.silent();
   quiet.threads = 1;
   parallel_for(images.size(), context.thread_count(), [&](std::size_t k) {
     if (context.stopped()) return;

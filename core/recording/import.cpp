@@ -67,8 +67,7 @@ Result<Cloud> SceneWriter::accumulate(const StillStretch& stretch, std::size_t& 
   }
   span.last_ns =
       std::min(span.last_ns, span.first_ns + static_cast<std::int64_t>(1e9 * options_.max_scene_s));
-  RunContext silent = context_;
-  silent.progress = nullptr;
+  const RunContext silent = context_.silent();
   std::int64_t first_ns = 0;
   std::int64_t first_stamp_ns = 0;
   auto read = recording_.read(
@@ -108,8 +107,7 @@ Result<Message> SceneWriter::write_scene(const StillStretch& stretch,
                                          const std::optional<Camera>& camera,
                                          const fs::path& folder, ImportedStretch& out) const {
   if (Status s = create_folder(folder); !s) return s.error();
-  RunContext silent = context_;
-  silent.progress = nullptr;
+  const RunContext silent = context_.silent();
   Message reason = Message("its image cannot be read again");
   fs::path image_path;
   auto read = recording_.read({survey_.topics.image}, {out.image_ns, out.image_ns}, silent, "scene",
@@ -211,17 +209,6 @@ std::string scene_name(std::size_t number) {
   return formatted("%03.0f", static_cast<double>(number));
 }
 
-// The part of a run that comes after `before`, as its own progress 0…1.
-RunContext part_of(const RunContext& context, double before, double after) {
-  RunContext out = context;
-  if (context.progress) {
-    out.progress = [&context, before, after](const Progress& p) {
-      context.progress({p.stage, before + (after - before) * p.fraction, p.text});
-    };
-  }
-  return out;
-}
-
 std::optional<Camera> camera_of(const RecordingSurvey& survey, const ImportOptions& options) {
   return options.camera ? options.camera : survey.camera;
 }
@@ -307,9 +294,9 @@ Result<ImportSummary> import_recording(const Recording& recording, const ImportO
   if (!topics) return topics.error();
   auto folder = UnfinishedFolder::create(dataset, options.force);
   if (!folder) return folder.error();
-  const auto survey = survey_recording(recording, options, part_of(context, 0.0, 0.7));
+  const auto survey = survey_recording(recording, options, context.part(0.0, 0.7));
   if (!survey) return survey.error();
-  return import_into(*folder, recording, *survey, options, part_of(context, 0.7, 1.0));
+  return import_into(*folder, recording, *survey, options, context.part(0.7, 1.0));
 }
 
 Result<ImportSummary> import_recording(const Recording& recording, const RecordingSurvey& survey,

@@ -42,8 +42,7 @@ bool is_cloud_file(const fs::path& path) {
 // All clouds of a recording as one: it was made at rest, of one board pose. Fields that one sweep
 // lacks are dropped from all.
 Result<Cloud> cloud_of_recording(const fs::path& path, const RunContext& context) {
-  RunContext silent = context;
-  silent.progress = nullptr;
+  const RunContext silent = context.silent();
   const auto recording = Recording::open(path, silent);
   if (!recording) return recording.error();
   const auto candidates = list_candidates(*recording);

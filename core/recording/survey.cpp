@@ -345,8 +345,7 @@ std::vector<Message> warnings_of(const Recording& recording, const RecordingSurv
 Result<Thumbnail> thumbnail_at(const Recording& recording, std::size_t image_topic,
                                std::int64_t time_ns, int longest_px, const RunContext& context) {
   const Topic& topic = recording.topics()[image_topic];
-  RunContext silent = context;
-  silent.progress = nullptr;
+  const RunContext silent = context.silent();
   Result<Thumbnail> out = Error::input(Message("there is no image at this time"), topic.name);
   TimeSpan span;
   span.first_ns = time_ns;
@@ -365,8 +364,7 @@ Result<StretchPicture> picture_of(const Recording& recording, const RecordingSur
                                   const ImportedStretch& stretch, int longest_px,
                                   const RunContext& context) {
   const Topic& topic = recording.topics()[survey.topics.image];
-  RunContext silent = context;
-  silent.progress = nullptr;
+  const RunContext silent = context.silent();
   StretchPicture out;
   Status taken = Error::input(Message("its image cannot be read again"), topic.name);
   const auto take = [&](const RecordedMessage& message) -> Status {

@@ -170,8 +170,7 @@ Result<FirstMessage> look_at_first(const Recording& recording, std::size_t index
                                    const RunContext& context) {
   FirstMessage out;
   const Topic& topic = recording.topics()[index];
-  RunContext silent = context;
-  silent.progress = nullptr;
+  const RunContext silent = context.silent();
   const auto read = recording.read(
       {index}, {}, silent, "open", [&](const RecordedMessage& message) -> Result<bool> {
         if (const std::int64_t stamp = decode_stamp(topic, message.data); stamp != 0) {

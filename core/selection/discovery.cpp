@@ -10,16 +10,6 @@
 namespace lvcalib {
 namespace {
 
-// A part of a longer work: its fractions run from `from` to `to` of the whole.
-RunContext part_of(const RunContext& context, double from, double to) {
-  RunContext out = context;
-  if (!context.progress) return out;
-  out.progress = [progress = context.progress, from, to](const Progress& p) {
-    progress({p.stage, from + (to - from) * std::clamp(p.fraction, 0.0, 1.0), p.text});
-  };
-  return out;
-}
-
 // The model that the user asked for, step by step. What the data cannot bear is left out, named in
 // the warnings, and the rest goes on.
 struct WantedModel {
@@ -56,14 +46,14 @@ Result<WantedModel> add_wanted(const ModelStepPtr& start, const RunContext& cont
 }
 
 Result<Discovery> search(const ModelStepPtr& start, const RunContext& context) {
-  auto wanted = add_wanted(start, part_of(context, 0.2, 0.3));
+  auto wanted = add_wanted(start, context.part(0.2, 0.3));
   if (!wanted) return wanted.error();
   std::vector<ModelStepPtr>& steps = wanted->steps;
   const auto found = find_all(
       steps.back(), [&](const ModelStepPtr& next) { steps.push_back(next); },
-      part_of(context, 0.3, 0.85));
+      context.part(0.3, 0.85));
   if (!found) return found.error();
-  const auto ranking = rank_effects(**found, part_of(context, 0.85, 1.0));
+  const auto ranking = rank_effects(**found, context.part(0.85, 1.0));
   if (!ranking) return ranking.error();
   Discovery out = as_discovery(steps, &*ranking);
   out.warnings = std::move(wanted->warnings);
@@ -124,7 +114,7 @@ Result<Discovery> discover_effects(const MeasurementTable& table, const ModelSta
                                    const DiscoveryOptions& options, const RunContext& context) {
   if (Status s = check_options(options); !s) return s.error();
   const auto start =
-      start_model(table, state, options, part_of(context, 0.0, 0.2), StructureOf::kFirstStep);
+      start_model(table, state, options, context.part(0.0, 0.2), StructureOf::kFirstStep);
   if (!start) return start.error();
   return search(*start, context);
 }
@@ -132,8 +122,7 @@ Result<Discovery> discover_effects(const MeasurementTable& table, const ModelSta
 Result<Discovery> discover_effects(const DiscoveryInput& input, const DiscoveryOptions& options,
                                    const RunContext& context) {
   if (Status s = check_options(options); !s) return s.error();
-  const auto start =
-      start_model(input, options, part_of(context, 0.0, 0.2), StructureOf::kFirstStep);
+  const auto start = start_model(input, options, context.part(0.0, 0.2), StructureOf::kFirstStep);
   if (!start) return start.error();
   return search(*start, context);
 }

@@ -330,8 +330,7 @@ Result<ModelStepPtr> find_all(const ModelStepPtr& from,
   EffectSearch search(*from->search);
   search.go_on(context);
   std::vector<Selection> selections = selections_of(from->terms);
-  RunContext silent = context;  // Its steps are parts of one work.
-  silent.progress = nullptr;
+  const RunContext silent = context.silent();  // Its steps are parts of one work.
   std::optional<Error> failed;
   grow_model(search, selections, from->basis->options, context, [&] {
     if (failed || context.stopped()) return;

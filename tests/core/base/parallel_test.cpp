@@ -99,5 +99,24 @@ TEST(RunContext, ReportsStopsAndCountsThreads) {
   EXPECT_EQ(context.thread_count(), 5);
 }
 
+TEST(RunContext, APartReportsAsAPartOfTheWhole) {
+  std::vector<double> fractions;
+  RunContext context;
+  context.progress = [&](const Progress& p) { fractions.push_back(p.fraction); };
+  context.threads = 3;
+  const RunContext part = context.part(0.2, 0.6);
+  part.report("load", 0.0, Message("begun"));
+  part.report("load", 0.5, Message("half"));
+  part.part(0.5, 1.0).report("load", 0.5, Message("a part of the part"));
+  part.report("load", 7.0, Message("never beyond its end"));
+  ASSERT_EQ(fractions.size(), 4u);
+  const double expected[] = {0.2, 0.4, 0.5, 0.6};
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_DOUBLE_EQ(fractions[k], expected[k]) << k;
+  EXPECT_EQ(part.thread_count(), 3);
+  context.silent().report("load", 0.5, Message("nobody hears"));
+  EXPECT_EQ(fractions.size(), 4u);
+  EXPECT_EQ(context.silent().thread_count(), 3);
+}
+
 }  // namespace
 }  // namespace lvcalib
