@@ -11237,6 +11237,10 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
         <source>Leave out what is selected, in every scene, and solve again; of corners their tags</source>
         <translation>在所有场景中排除所选内容并重新求解；对于角点，排除其所在的标签</translation>
     </message>
+    <message>
+        <source>the residuals are being collected …</source>
+        <translation>正在收集残差 …</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::Workspace</name>
