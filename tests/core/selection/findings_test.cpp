@@ -95,6 +95,26 @@ TEST_F(Findings, AliasedNamesTheOthersAndTheSceneThatTells) {
   EXPECT_THAT(f.explanation, HasSubstr(find_effect("range_walk")->info().discriminating_pose));
 }
 
+// At the same weights: without an effect its errors make others look larger.
+TEST_F(Findings, WhatAnEffectInUseMovesIsWhatSolvingWithoutItMoves) {
+  const auto made = with_walk();
+  const EffectFinding f = finding_of(judged(made, {"corner_bias", "range_walk"}), "range_walk");
+  EffectSearch search(made.table, made.truth, options_, context_);
+  for (const char* id : {"corner_bias", "range_walk"})
+    search.add(find_effect(id), find_effect(id)->shapes(made.table).front());
+  const ModelFit& with = search.reference().fit;
+  constexpr std::size_t kWalk = 1;  // Each of the two has one parameter.
+  const double step = with.solution(6 + kWalk);
+  ColumnSubset pinned = search.reference().subset;
+  pinned.prior_sigma[kWalk] = 1e-9;
+  pinned.prior_mean[kWalk] = step - search.in_use()[kWalk].values(0);
+  const ModelFit without = fit_model(search.linear(), pinned, with.variances, {.rounds = 0});
+  const Vector6d moved = without.solution.head<6>() - with.solution.head<6>();
+  EXPECT_GT(f.extrinsic_move_mm, 1.0);
+  EXPECT_NEAR(f.extrinsic_move_mm, 1e3 * moved.head<3>().norm(), 0.01);
+  EXPECT_NEAR(f.extrinsic_move_mrad, 1e3 * moved.tail<3>().norm(), 0.01);
+}
+
 // 95 % of what is told absent must move the extrinsic by less than is tolerated, however large its
 // parameter may be.
 TEST_F(Findings, AbsentIsWhatMovesTheExtrinsicByLessThanIsTolerated) {
