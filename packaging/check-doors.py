@@ -88,7 +88,7 @@ TESTED_BY = {
         "model_section": "html_report", "report_sections": "html_report",
         "response_section": "html_report", "scene_section": "html_report"},
     "core/selection": {
-        "advice_text": "proposals", "contradictions": "effect_search", "print_contrast": "effect_search"},
+        "contradictions": "effect_search", "print_contrast": "effect_search"},
     "core/solve": {
         "covered_places": "board_returns", "forward_problem": "forward_solver",
         "global_solution": "forward_solver", "print_size": "forward_solver",

@@ -14,6 +14,23 @@
 namespace lvcalib {
 namespace {
 
+// Also on its edges, and of what lies a little beyond them.
+TEST(BoardPatches, HoldEveryPlaceOnTheBoard) {
+  BoardOutline outline;
+  outline.lower_left_m = {-0.1, 0.2};
+  outline.upper_right_m = {0.6, 0.69};
+  const BoardPatches patches(outline, 0.2);
+  EXPECT_EQ(patches.columns, 4);
+  EXPECT_EQ(patches.rows, 3);
+  EXPECT_EQ(patches.of(outline, {-0.1, 0.2}), 0);
+  EXPECT_EQ(patches.of(outline, {0.6, 0.2}), 3);
+  EXPECT_EQ(patches.of(outline, {-0.1, 0.69}), 8);
+  EXPECT_EQ(patches.of(outline, {0.6, 0.69}), 11);
+  EXPECT_EQ(patches.of(outline, {0.7, 0.8}), 11);
+  EXPECT_EQ(patches.of(outline, {-0.2, 0.1}), 0);
+  EXPECT_EQ(patches.of(outline, outline.lower_left_m + Eigen::Vector2d(0.36, 0.17)), 6);
+}
+
 // Every effect of the catalogue, in every channel: the column is the change of the prediction per
 // unit of the parameter.
 class EffectDerivative : public ::testing::TestWithParam<std::string> {};
