@@ -246,7 +246,8 @@ class EffectSearch {
   std::set<std::string> refused_;
   std::optional<Eigen::MatrixXd> joint_covariance_;
   std::vector<double> shape_sigmas_;
-  std::optional<Linearization> with_slopes_;  // That of the joint covariance, while it holds.
+  // That of the joint covariance, until the state moves.
+  std::optional<Linearization> with_slopes_;
 };
 
 }  // namespace lvcalib

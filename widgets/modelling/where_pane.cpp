@@ -28,7 +28,8 @@ WherePane::WherePane(FigureSource& source, QWidget* parent) : QWidget(parent), s
   createBar();
   createFigures();
   layout->addWidget(tabs_, 1);
-  connect(&source_, &FigureSource::figureReady, this, &WherePane::showFigure);
+  connect(&source_, &FigureSource::figureReady, this,
+          [this](const std::shared_ptr<const ResidualFigure>& figure) { showFigure(figure, {}); });
   connect(&source_, &FigureSource::boardReady, this,
           [this](const std::shared_ptr<const BoardIntensity>& board) { board_->setImages(board); });
   follow_language(this, [this] { retranslate(); });
@@ -150,7 +151,6 @@ void WherePane::setStep(const ModelStepPtr& step, const QString& reason) {
   if (step != step_ && !exclude_->isHidden()) select({});
   outdated_ = outdated_ || step != step_;
   step_ = step;
-  reason_ = reason;
   fillChannels();
   fillCovariates();
   fillScenes();
@@ -159,8 +159,8 @@ void WherePane::setStep(const ModelStepPtr& step, const QString& reason) {
     showAwaited();
     askBoard();
   } else {
-    showFigure(nullptr);
-    board_->setImages(nullptr, reason_);
+    showFigure(nullptr, reason);
+    board_->setImages(nullptr, reason);
   }
 }
 
@@ -243,11 +243,7 @@ void WherePane::ask() {
 void WherePane::showAwaited() {
   if (!step_ || covariates_->currentIndex() < 0) return;
   if (figure_ && figure_->view->columns.channel == channel()) return;
-  const QString awaited = tr("the residuals are being collected …");
-  if (!exclude_->isHidden()) select({});
-  figure_ = nullptr;
-  plot_->setFigure(nullptr, awaited);
-  for (ResidualMapPlot* map : maps_) map->setView(nullptr, awaited);
+  showFigure(nullptr, tr("the residuals are being collected …"));
 }
 
 void WherePane::askBoard() {
@@ -259,16 +255,17 @@ void WherePane::askBoard() {
   source_.requestBoard(scenes_->currentData().toInt());
 }
 
-void WherePane::showFigure(const std::shared_ptr<const ResidualFigure>& figure) {
+// Without one the message stands in its place.
+void WherePane::showFigure(const std::shared_ptr<const ResidualFigure>& figure,
+                           const QString& message) {
   // What is selected is forgotten with the residuals that it was selected of.
   const bool others = !figure || !figure_ || figure->view != figure_->view;
   if (others && !exclude_->isHidden()) select({});
   outdated_ = false;
   figure_ = figure;
   plot_->setOverlayScale(scale_);
-  const QString why = step_ ? QString() : reason_;
-  plot_->setFigure(figure, why);
-  for (ResidualMapPlot* map : maps_) map->setView(figure ? figure->view : nullptr, why);
+  plot_->setFigure(figure, message);
+  for (ResidualMapPlot* map : maps_) map->setView(figure ? figure->view : nullptr, message);
 }
 
 // Rows whose covariates lie in the area; without `y` it is the residual itself.

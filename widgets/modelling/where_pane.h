@@ -64,13 +64,12 @@ class WherePane : public QWidget {
   void ask();
   void showAwaited();
   void askBoard();
-  void showFigure(const std::shared_ptr<const ResidualFigure>& figure);
+  void showFigure(const std::shared_ptr<const ResidualFigure>& figure, const QString& message);
   void brush(const QString& x, const QString& y, const QRectF& area);
   void select(std::vector<std::size_t> rows);
 
   FigureSource& source_;
   ModelStepPtr step_;
-  QString reason_;
   std::optional<EffectInUse> effect_;
   double scale_ = 1.0;
   std::shared_ptr<const ResidualFigure> figure_;
