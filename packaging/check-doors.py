@@ -70,7 +70,7 @@ TESTED_BY = {
     "core/model": {
         "beam_blur": "core/solve/print_table", "camera_intrinsics": "core/selection/sensitivity_budget",
         "channel": "linear_model", "covariate_effect": "user_effect", "curve_effect": "user_effect",
-        "formula_effect": "user_effect", "measurement_table": "residuals", "print_rows": "residuals",
+        "formula_effect": "user_effect", "measurement_table": "residuals",
         "sensor_errors": "core/selection/effect_search"},
     "core/model/effects": {"*": "core/selection/hidden_effects"},
     "core/pipeline": {
