@@ -192,19 +192,23 @@ class EffectRows {
       const auto shifts = of(c, shifts_);
       for (std::size_t k = 0; k < own.size(); ++k) {
         if (!board[k].isZero(0.0)) own[k] += moves.rotation * board[k];
-        shifts[k] = c.print_contrast ? Eigen::Vector2d::Zero().eval() : shift_of(own[k], moves);
+        shifts[k].setZero();
+        if (!c.print_contrast && !own[k].isZero(0.0)) shifts[k] = shift_of(own[k], moves);
       }
     }
   }
-  // Room for what an effect's hook writes.
+  // Room for what an effect's hook writes. Most write nothing: it is mostly zero as it is.
   template <class T>
   static std::span<T> cleared(std::vector<T>& room, std::size_t count) {
-    if constexpr (std::is_arithmetic_v<T>) {
-      std::fill_n(room.begin(), count, T{});
-    } else {
-      std::fill_n(room.begin(), count, T::Zero());
+    const std::span<T> out = std::span(room).first(count);
+    for (T& value : out) {
+      if constexpr (std::is_arithmetic_v<T>) {
+        if (value != T{}) value = T{};
+      } else {
+        if (!value.isZero(0.0)) value.setZero();
+      }
     }
-    return std::span(room).first(count);
+    return out;
   }
   // An effect's own of what is kept for all columns.
   template <class T>

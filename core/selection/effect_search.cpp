@@ -465,11 +465,15 @@ std::vector<double> EffectSearch::shapes_worth_trying(
     Eigen::VectorXd row(n);
     for (std::size_t i = 0; i < residuals.values.size(); i += stride) {
       const BeamPoint& beam = table().range[residuals.row[i]].beam;
+      const double weight = 1.0 / residuals.sigma[i];
+      const double residual = weight * residuals.values[i];
       effect.lidar(beam, table(), shapes[k], moves);
-      for (Eigen::Index j = 0; j < n; ++j)
-        row(j) = beam.direction.dot(moves[static_cast<std::size_t>(j)]) / residuals.sigma[i];
-      normal.noalias() += row * row.transpose();
-      gradient += residuals.values[i] / residuals.sigma[i] * row;
+      // A matrix product is set up for longer than these few numbers take.
+      for (Eigen::Index j = 0; j < n; ++j) {
+        row(j) = weight * beam.direction.dot(moves[static_cast<std::size_t>(j)]);
+        gradient(j) += residual * row(j);
+        for (Eigen::Index l = 0; l <= j; ++l) normal(j, l) += row(j) * row(l);
+      }
     }
     power[k] = gradient.dot(normal.ldlt().solve(gradient));
   });
