@@ -7665,10 +7665,6 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <translation>不可见：%1</translation>
     </message>
     <message>
-        <source>%1 is written, without intrinsics: put a camera.yaml into it, then open it.</source>
-        <translation>已写入 %1，但没有内参：请放入 camera.yaml，然后打开。</translation>
-    </message>
-    <message>
         <source>Matched by their names</source>
         <translation>按名称配对</translation>
     </message>
@@ -7807,18 +7803,6 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>Board</source>
         <translation>标定板</translation>
-    </message>
-    <message>
-        <source>&amp;Stop</source>
-        <translation>停止(&amp;S)</translation>
-    </message>
-    <message>
-        <source>Import and &amp;calibrate</source>
-        <translation>导入并标定(&amp;C)</translation>
-    </message>
-    <message>
-        <source>Close</source>
-        <translation>关闭</translation>
     </message>
 </context>
 <context>
@@ -8079,10 +8063,6 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
         <translation>正在读取…</translation>
     </message>
     <message>
-        <source>%1 is written, without intrinsics: put a camera.yaml into it, then open it.</source>
-        <translation>已写入 %1，但没有内参：请放入 camera.yaml，然后打开。</translation>
-    </message>
-    <message>
         <source>Nothing stands still: something moves in images or clouds all the time.</source>
         <translation>没有静止时段：图像或点云中始终有物体在动。</translation>
     </message>
@@ -8107,22 +8087,6 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
         <translation>其他记录(&amp;O)…</translation>
     </message>
     <message>
-        <source>&amp;Stop</source>
-        <translation>停止(&amp;S)</translation>
-    </message>
-    <message>
-        <source>Import and &amp;calibrate</source>
-        <translation>导入并标定(&amp;C)</translation>
-    </message>
-    <message>
-        <source>Close</source>
-        <translation>关闭</translation>
-    </message>
-    <message>
-        <source>&amp;Look again</source>
-        <translation>重新查看(&amp;L)</translation>
-    </message>
-    <message>
         <source>&amp;Edges of the stretch:</source>
         <translation>时段的边缘(&amp;E)：</translation>
     </message>
@@ -8141,6 +8105,29 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
     <message>
         <source>What lies between the edges becomes the scene; they can be dragged on the time line as well</source>
         <translation>边缘之间的内容成为场景；也可以在时间线上拖动边缘</translation>
+    </message>
+</context>
+<context>
+    <name>lvcalib::widgets::ImportFoot</name>
+    <message>
+        <source>%1 is written, without intrinsics: put a camera.yaml into it, then open it.</source>
+        <translation>已写入 %1，但没有内参：请放入 camera.yaml，然后打开。</translation>
+    </message>
+    <message>
+        <source>&amp;Look again</source>
+        <translation>重新查看(&amp;L)</translation>
+    </message>
+    <message>
+        <source>&amp;Stop</source>
+        <translation>停止(&amp;S)</translation>
+    </message>
+    <message>
+        <source>Import and &amp;calibrate</source>
+        <translation>导入并标定(&amp;C)</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>关闭</translation>
     </message>
 </context>
 <context>

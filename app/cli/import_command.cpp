@@ -163,7 +163,7 @@ Result<PairedFiles> pairs_of(const ImportArguments& options, const Session& sess
 }
 
 std::string list_pairs(const PairedFiles& files) {
-  std::string out = std::to_string(files.pairs.size()) + " pairs, " + files.layout +
+  std::string out = std::to_string(files.pairs.size()) + " pairs, " + name_of(files.layout) +
                     ", camera: " + (files.camera ? files.camera_from : std::string("none"));
   for (const FilePair& pair : files.pairs) {
     char apart[40] = "";
@@ -202,7 +202,7 @@ Result<std::string> import_files(const ImportArguments& options, Session& sessio
   }
   warn_all(summary->warnings, session);
   return std::to_string(summary->scene_count()) + " scenes of " +
-         std::to_string(summary->pairs.size()) + " pairs (" + summary->layout + ") -> " +
+         std::to_string(summary->pairs.size()) + " pairs (" + name_of(summary->layout) + ") -> " +
          options.output;
 }
 

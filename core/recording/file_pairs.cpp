@@ -271,7 +271,7 @@ std::vector<double> kitti_times(const fs::path& path) {
 
 PairedFiles kitti_pairs(const KittiDrive& drive) {
   PairedFiles out;
-  out.layout = "KITTI raw";
+  out.layout = FileLayout::kKittiRaw;
   const fs::path image_folder = drive.folder / ("image_" + drive.camera);
   const fs::path cloud_folder = drive.folder / "velodyne_points";
   const Paths images = files_in(image_folder / "data", kImages);
@@ -308,7 +308,7 @@ bool is_acfr(const fs::path& folder) {
 
 PairedFiles acfr_pairs(const fs::path& folder) {
   PairedFiles out;
-  out.layout = "cam_lidar_calibration";
+  out.layout = FileLayout::kCamLidarCalibration;
   const auto without = [](const std::string& suffix) {
     return [suffix](const fs::path& path) {
       const std::string stem = stem_of(path);
@@ -331,7 +331,7 @@ PairedFiles acfr_pairs(const fs::path& folder) {
 
 PairedFiles visual_pairs(const fs::path& folder) {
   PairedFiles out;
-  out.layout = "direct_visual_lidar_calibration";
+  out.layout = FileLayout::kDirectVisual;
   Paths images = files_in(folder, kImages);
   // Pictures that the tool made of the clouds.
   std::erase_if(images,
@@ -353,7 +353,7 @@ PairedFiles visual_pairs(const fs::path& folder) {
 
 PairedFiles fast_pairs(const fs::path& folder) {
   PairedFiles out;
-  out.layout = "FAST-Calib";
+  out.layout = FileLayout::kFastCalib;
   const Paths images = files_in(folder, kImages);
   const Paths clouds = files_in(folder, kRecordings);
   out.pairs = pairs_by_key(images, clouds, stem_of, stem_of);
@@ -413,10 +413,10 @@ Result<PairedFiles> other_pairs(const PairOptions& options) {
   }
   PairedFiles out;
   if (options.rule != PairRule::kTime) {
-    out.layout = "files of the same name";
+    out.layout = FileLayout::kSameName;
     out.pairs = pairs_by_key(images, clouds, stem_of, stem_of);
     if (out.pairs.empty()) {
-      out.layout = "files of the same number";
+      out.layout = FileLayout::kSameNumber;
       const Key number = [](const fs::path& p) { return number_in(stem_of(p)); };
       // A number that several files have says nothing.
       if (by_key(images, number).size() == images.size() &&
@@ -435,7 +435,7 @@ Result<PairedFiles> other_pairs(const PairOptions& options) {
                             Message("expected seconds, ms, µs or ns: 1650000000.25.png"));
       }
     } else {
-      out.layout = "files of the nearest time";
+      out.layout = FileLayout::kNearestTime;
       out.pairs = pairs_by_time(*image_times, *cloud_times, options.most_apart_s);
     }
   }
@@ -452,6 +452,26 @@ Result<PairedFiles> other_pairs(const PairOptions& options) {
 }
 
 }  // namespace
+
+std::string name_of(FileLayout layout) {
+  switch (layout) {
+    case FileLayout::kKittiRaw:
+      return "KITTI raw";
+    case FileLayout::kCamLidarCalibration:
+      return "cam_lidar_calibration";
+    case FileLayout::kDirectVisual:
+      return "direct_visual_lidar_calibration";
+    case FileLayout::kFastCalib:
+      return "FAST-Calib";
+    case FileLayout::kSameName:
+      return "files of the same name";
+    case FileLayout::kSameNumber:
+      return "files of the same number";
+    case FileLayout::kNearestTime:
+      break;
+  }
+  return "files of the nearest time";
+}
 
 Message UnmatchedFile::sentence() const {
   return name.empty() ? reason : Message("%1: %2", name, reason);

@@ -45,8 +45,21 @@ struct UnmatchedFile {
   [[nodiscard]] Message sentence() const;
 };
 
+/// Whose tool's files they are, or what tells those of any others that belong together.
+enum class FileLayout {
+  kKittiRaw,
+  kCamLidarCalibration,
+  kDirectVisual,
+  kFastCalib,
+  kSameName,
+  kSameNumber,
+  kNearestTime,
+};
+/// As import.json has it: "KITTI raw", "files of the same name"…
+std::string name_of(FileLayout layout);
+
 struct PairedFiles {
-  std::string layout;  ///< "KITTI raw", "files of the same name"…
+  FileLayout layout = FileLayout::kSameName;
   std::vector<FilePair> pairs;
   std::vector<UnmatchedFile> unmatched;  ///< At most some dozens are named.
   std::optional<Camera> camera;          ///< Intrinsics that lie there.

@@ -203,7 +203,7 @@ std::string text_of(const nlohmann::ordered_json& json) {
 
 std::string import_json(const PairedFiles& files, const PairImportSummary& summary) {
   nlohmann::ordered_json out;
-  out["layout"] = summary.layout;
+  out["layout"] = name_of(summary.layout);
   out["camera_from"] = nullptr;
   if (!files.camera_from.empty()) out["camera_from"] = files.camera_from;
   out["pairs"] = nlohmann::ordered_json::array();

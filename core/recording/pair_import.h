@@ -38,7 +38,7 @@ struct ImportedPair {
 };
 
 struct PairImportSummary {
-  std::string layout;
+  FileLayout layout = FileLayout::kSameName;
   bool has_camera = false;  ///< The dataset has a camera.yaml.
   std::vector<ImportedPair> pairs;
   std::vector<Message> warnings;

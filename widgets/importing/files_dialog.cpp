@@ -11,8 +11,6 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
-#include <QListWidget>
-#include <QProgressBar>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QTreeWidget>
@@ -20,6 +18,7 @@
 #include <algorithm>
 
 #include "importing/board_choice.h"
+#include "importing/import_foot.h"
 #include "style/marks.h"
 #include "style/texts.h"
 #include "tools/target_camera_dialog.h"
@@ -58,15 +57,9 @@ FilesDialog::FilesDialog(Choices& choices, const QStringList& recent, QWidget* p
       browse_dataset_(new QPushButton(this)),
       replace_(new QCheckBox(this)),
       layout_text_(new QLabel(this)),
-      warnings_(new QListWidget(this)),
+      warnings_(new ImportWarnings(this)),
       pairs_(new QTreeWidget(this)),
-      problem_(new QLabel(this)),
-      progress_(new QProgressBar(this)),
-      progress_text_(new QLabel(this)),
-      stop_(new QPushButton(this)),
-      count_(new QLabel(this)),
-      import_(new QPushButton(this)),
-      close_(new QPushButton(this)) {
+      foot_(new ImportFoot(this)) {
   setObjectName(QStringLiteral("files_dialog"));
   setAttribute(Qt::WA_DeleteOnClose);
   build();
@@ -86,9 +79,7 @@ void FilesDialog::build() {
   const std::pair<QWidget*, const char*> named[] = {
       {images_, "images_folder"},  {clouds_, "clouds_folder"},     {rule_, "pair_rule"},
       {apart_, "most_apart"},      {cameras_, "files_camera"},     {dataset_, "files_dataset"},
-      {replace_, "files_replace"}, {layout_text_, "files_layout"}, {warnings_, "files_warnings"},
-      {pairs_, "pairs"},           {problem_, "files_problem"},    {progress_, "files_progress"},
-      {stop_, "files_stop"},       {count_, "files_count"},        {import_, "files_import"}};
+      {replace_, "files_replace"}, {layout_text_, "files_layout"}, {pairs_, "pairs"}};
   for (const auto& [widget, name] : named) widget->setObjectName(QString::fromLatin1(name));
   for (int i = 0; i < 3; ++i) rule_->addItem(QString(), i);
   apart_->setRange(0.0, 3600.0);
@@ -97,10 +88,6 @@ void FilesDialog::build() {
   cameras_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   cameras_->setMinimumContentsLength(18);
   replace_->hide();
-  warnings_->setWordWrap(true);
-  warnings_->setSelectionMode(QAbstractItemView::NoSelection);
-  warnings_->setFocusPolicy(Qt::NoFocus);
-  warnings_->setMaximumHeight(72);
   pairs_->setColumnCount(kPairColumns);
   pairs_->setRootIsDecorated(false);
   pairs_->setUniformRowHeights(true);
@@ -108,16 +95,11 @@ void FilesDialog::build() {
   pairs_->setIconSize(QSize(84, 56));
   pairs_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
   pairs_->header()->setStretchLastSection(true);
-  for (QLabel* text : {problem_, layout_text_}) {
-    text->setWordWrap(true);
-    text->setTextFormat(Qt::PlainText);
-    text->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-  }
-  progress_->setRange(0, 1000);
-  progress_->setTextVisible(false);
-  for (QPushButton* button : {browse_images_, browse_clouds_, browse_dataset_, stop_, close_})
+  layout_text_->setWordWrap(true);
+  layout_text_->setTextFormat(Qt::PlainText);
+  layout_text_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
+  for (QPushButton* button : {browse_images_, browse_clouds_, browse_dataset_})
     button->setAutoDefault(false);
-  import_->setDefault(true);
 
   // Two columns of fields: where the files are, and what becomes of them.
   auto* form = new QGridLayout;
@@ -136,22 +118,12 @@ void FilesDialog::build() {
   form->addWidget(replace_, 3, 4, 1, 2);
   form->setColumnStretch(1, 1);
   form->setColumnStretch(4, 1);
-  auto* running = new QHBoxLayout;
-  running->addWidget(progress_text_, 1);
-  running->addWidget(progress_, 1);
-  running->addWidget(stop_);
-  auto* buttons = new QHBoxLayout;
-  buttons->addWidget(count_, 1);
-  buttons->addWidget(import_);
-  buttons->addWidget(close_);
   auto* layout = new QVBoxLayout(this);
   layout->addLayout(form);
   layout->addWidget(warnings_);
   layout->addWidget(layout_text_);
   layout->addWidget(pairs_, 1);
-  layout->addWidget(problem_);
-  layout->addLayout(running);
-  layout->addLayout(buttons);
+  layout->addWidget(foot_);
 }
 
 void FilesDialog::connectParts() {
@@ -179,9 +151,9 @@ void FilesDialog::connectParts() {
   connect(dataset_, &QLineEdit::textChanged, this, &FilesDialog::checkFolder);
   connect(replace_, &QCheckBox::toggled, this, &FilesDialog::refresh);
   connect(pairs_, &QTreeWidget::itemChanged, this, &FilesDialog::refresh);
-  connect(stop_, &QPushButton::clicked, this, [this] { work_.cancel(); });
-  connect(import_, &QPushButton::clicked, this, &FilesDialog::startImport);
-  connect(close_, &QPushButton::clicked, this, &QDialog::close);
+  connect(foot_, &ImportFoot::stopWanted, this, [this] { work_.cancel(); });
+  connect(foot_, &ImportFoot::importWanted, this, &FilesDialog::startImport);
+  connect(foot_, &ImportFoot::closeWanted, this, &QDialog::close);
   connect(this, &QDialog::finished, this, [this] { work_.cancel(); });
   connect(&work_, &FilesWork::found, this, &FilesDialog::takeFound);
   connect(&work_, &FilesWork::pictured, this, &FilesDialog::showPicture);
@@ -191,10 +163,7 @@ void FilesDialog::connectParts() {
     refresh();
   });
   connect(&work_, &FilesWork::cancelled, this, &FilesDialog::refresh);
-  connect(&work_, &FilesWork::progressed, this, [this](double fraction, const QString& text) {
-    progress_->setValue(static_cast<int>(1000 * fraction));
-    progress_text_->setText(text);
-  });
+  connect(&work_, &FilesWork::progressed, foot_, &ImportFoot::setProgress);
 }
 
 void FilesDialog::openFolder(const QString& folder) {
@@ -240,13 +209,13 @@ QStringList FilesDialog::foundNames() const {
 void FilesDialog::look() {
   files_.reset();
   error_.reset();
-  note_.clear();
+  foot_->clearNote();
   const PairOptions options = pairOptions();
   {
     const QSignalBlocker quiet(pairs_);
     pairs_->clear();
   }
-  progress_->setValue(0);
+  foot_->setProgress(0.0, {});
   if (!options.images.empty()) work_.find(options);
   refresh();
 }
@@ -379,16 +348,15 @@ void FilesDialog::startImport() {
   options.board_is_certain = board_->certain();
   options.force = replace_->isVisibleTo(this) && replace_->isChecked();
   error_.reset();
-  note_.clear();
-  progress_->setValue(0);
+  foot_->clearNote();
+  foot_->setProgress(0.0, {});
   work_.import(wanted, *board_->target(), options, datasetFolder());
   refresh();
 }
 
 void FilesDialog::takeImported(const PairImportSummary& summary, const QString& dataset) {
   if (!summary.has_camera) {
-    note_ = tr("%1 is written, without intrinsics: put a camera.yaml into it, then open it.")
-                .arg(dataset);
+    foot_->noteWithoutCamera(dataset);
     refresh();
     return;
   }
@@ -404,13 +372,23 @@ void FilesDialog::checkFolder() {
 
 QString FilesDialog::summaryText() const {
   if (!files_) return {};
-  const std::pair<const char*, QString> names[] = {
-      {"files of the same name", tr("Matched by their names")},
-      {"files of the same number", tr("Matched by the numbers in their names")},
-      {"files of the nearest time", tr("Matched by the times that are their names")}};
-  QString text = tr("Files of %1").arg(QString::fromStdString(files_->layout));
-  for (const auto& [layout, words] : names) {
-    if (files_->layout == layout) text = words;
+  QString text;
+  switch (files_->layout) {
+    case FileLayout::kSameName:
+      text = tr("Matched by their names");
+      break;
+    case FileLayout::kSameNumber:
+      text = tr("Matched by the numbers in their names");
+      break;
+    case FileLayout::kNearestTime:
+      text = tr("Matched by the times that are their names");
+      break;
+    case FileLayout::kKittiRaw:
+    case FileLayout::kCamLidarCalibration:
+    case FileLayout::kDirectVisual:
+    case FileLayout::kFastCalib:
+      text = tr("Files of %1").arg(QString::fromStdString(name_of(files_->layout)));
+      break;
   }
   if (!files_->unmatched.empty())
     text += QStringLiteral("; ") +
@@ -420,21 +398,18 @@ QString FilesDialog::summaryText() const {
 
 void FilesDialog::refresh() {
   const bool busy = work_.busy();
-  progress_->setVisible(busy);
-  stop_->setVisible(busy);
-  if (!busy) progress_text_->clear();
+  foot_->setBusy(busy);
   layout_text_->setText(summaryText());
   QStringList unmatched;
   if (files_) {
     for (const UnmatchedFile& file : files_->unmatched) unmatched << core_text(file.sentence());
   }
   layout_text_->setToolTip(unmatched.join(QLatin1Char('\n')));
-  warnings_->clear();
+  QStringList warnings;
   if (files_) {
-    for (const Message& warning : files_->warnings)
-      new QListWidgetItem(mark_icon(Mark::kDoubtful, palette()), core_text(warning), warnings_);
+    for (const Message& warning : files_->warnings) warnings << core_text(warning);
   }
-  warnings_->setVisible(warnings_->count() > 0);
+  warnings_->setWarnings(warnings);
   int ticked = 0;
   int expected = 0;
   for (int i = 0; i < pairs_->topLevelItemCount(); ++i) {
@@ -449,15 +424,11 @@ void FilesDialog::refresh() {
     problem = tr("Tick the pairs that are to become scenes.");
   if (problem.isEmpty() && datasetFolder().isEmpty())
     problem = tr("Choose a folder for the dataset.");
-  if (problem.isEmpty()) problem = note_;
-  if (!problem.isEmpty()) problem[0] = problem[0].toUpper();
-  problem_->setText(problem);
-  problem_->setVisible(!problem.isEmpty());
-  count_->setText(files_
+  foot_->setProblem(problem);
+  foot_->setCount(files_
                       ? tr("%1 of %2 pairs become scenes").arg(expected).arg(files_->pairs.size())
                       : QString());
-  import_->setEnabled(files_ && ticked > 0 && !busy && board_->target() &&
-                      !datasetFolder().isEmpty());
+  foot_->setReady(files_ && ticked > 0 && !busy && board_->target() && !datasetFolder().isEmpty());
 }
 
 void FilesDialog::retranslate() {
@@ -482,9 +453,6 @@ void FilesDialog::retranslate() {
   cameras_->setToolTip(tr("Intrinsics that lie with the files, or a camera.yaml"));
   replace_->setText(tr("Replace the earlier import"));
   pairs_->setHeaderLabels({tr("Scene"), tr("Image"), tr("Cloud"), tr("Apart"), tr("Board")});
-  stop_->setText(tr("&Stop"));
-  import_->setText(tr("Import and &calibrate"));
-  close_->setText(tr("Close"));
   fillCameras(true);
   const QSignalBlocker quiet(pairs_);
   for (int i = 0; i < pairs_->topLevelItemCount(); ++i) showRow(pairs_->topLevelItem(i));

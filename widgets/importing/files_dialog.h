@@ -12,8 +12,6 @@ class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
 class QLineEdit;
-class QListWidget;
-class QProgressBar;
 class QPushButton;
 class QTreeWidget;
 class QTreeWidgetItem;
@@ -21,6 +19,8 @@ class QTreeWidgetItem;
 namespace lvcalib::widgets {
 
 class BoardChoice;
+class ImportFoot;
+class ImportWarnings;
 
 /// From folders of images and clouds to a dataset: which belong together, which become scenes.
 class FilesDialog : public QDialog {
@@ -73,7 +73,6 @@ class FilesDialog : public QDialog {
   std::optional<Error> error_;
   std::optional<Camera> camera_;  // From a file.
   QString camera_path_;
-  QString note_;  // Written, but not to be opened yet.
   int last_camera_ = 0;
 
   QLabel* labels_[7];
@@ -89,15 +88,9 @@ class FilesDialog : public QDialog {
   QPushButton* browse_dataset_;
   QCheckBox* replace_;
   QLabel* layout_text_;
-  QListWidget* warnings_;
+  ImportWarnings* warnings_;
   QTreeWidget* pairs_;
-  QLabel* problem_;
-  QProgressBar* progress_;
-  QLabel* progress_text_;
-  QPushButton* stop_;
-  QLabel* count_;
-  QPushButton* import_;
-  QPushButton* close_;
+  ImportFoot* foot_;
   FilesWork work_;  // Last: stopped before what it tells goes.
 };
 

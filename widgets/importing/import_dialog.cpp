@@ -5,8 +5,6 @@
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QListWidget>
-#include <QProgressBar>
 #include <QPushButton>
 #include <QScreen>
 #include <QSignalBlocker>
@@ -14,11 +12,11 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "importing/import_foot.h"
 #include "importing/import_form.h"
 #include "importing/stretch_list.h"
 #include "importing/time_line.h"
 #include "importing/topic_list.h"
-#include "style/marks.h"
 #include "style/texts.h"
 #include "words/core_text.h"
 
@@ -31,20 +29,14 @@ ImportDialog::ImportDialog(Choices& choices, const QStringList& recent, QWidget*
       other_(new QPushButton(this)),
       topics_(new TopicList(this)),
       form_(new ImportForm(choices, recent, this)),
-      warnings_(new QListWidget(this)),
+      warnings_(new ImportWarnings(this)),
       time_line_(new TimeLine(this)),
       stretches_(new StretchList(this)),
       edges_(new QLabel(this)),
       first_(new QDoubleSpinBox(this)),
       last_(new QDoubleSpinBox(this)),
       as_found_(new QPushButton(this)),
-      count_(new QLabel(this)),
-      problem_(new QLabel(this)),
-      progress_(new QProgressBar(this)),
-      progress_text_(new QLabel(this)),
-      stop_(new QPushButton(this)),
-      import_(new QPushButton(this)),
-      close_(new QPushButton(this)) {
+      foot_(new ImportFoot(this)) {
   setObjectName(QStringLiteral("import_dialog"));
   setAttribute(Qt::WA_DeleteOnClose);
   setAcceptDrops(false);  // The window takes what is dropped.
@@ -64,28 +56,17 @@ void ImportDialog::build() {
   // Its buttons stay within a small screen.
   const QSize room = screen() != nullptr ? screen()->availableSize() : QSize(1080, 860);
   resize(QSize(1080, 860).boundedTo(room));
-  const std::pair<QWidget*, const char*> named[] = {
-      {title_, "import_title"},       {warnings_, "import_warnings"}, {problem_, "import_problem"},
-      {progress_, "import_progress"}, {stop_, "import_stop"},         {import_, "import_start"},
-      {close_, "import_close"},       {other_, "import_other"},       {count_, "import_count"},
-      {first_, "stretch_first"},      {last_, "stretch_last"},        {as_found_, "as_found"}};
+  const std::pair<QWidget*, const char*> named[] = {{title_, "import_title"},
+                                                    {other_, "import_other"},
+                                                    {first_, "stretch_first"},
+                                                    {last_, "stretch_last"},
+                                                    {as_found_, "as_found"}};
   for (const auto& [widget, name] : named) widget->setObjectName(QString::fromLatin1(name));
   title_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   QFont bold = title_->font();
   bold.setBold(true);
   title_->setFont(bold);
-  warnings_->setWordWrap(true);
-  warnings_->setSelectionMode(QAbstractItemView::NoSelection);
-  warnings_->setFocusPolicy(Qt::NoFocus);
-  warnings_->setMaximumHeight(72);
-  problem_->setWordWrap(true);
-  problem_->setTextFormat(Qt::PlainText);
-  problem_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
-  progress_->setRange(0, 1000);
-  progress_->setTextVisible(false);
-  // Enter imports, and nothing else.
-  for (QPushButton* button : {other_, stop_, close_, as_found_}) button->setAutoDefault(false);
-  import_->setDefault(true);
+  for (QPushButton* button : {other_, as_found_}) button->setAutoDefault(false);
 
   auto* head = new QHBoxLayout;
   head->addWidget(title_, 1);
@@ -120,21 +101,11 @@ void ImportDialog::build() {
   parts->addWidget(above);
   parts->addWidget(lower);
   parts->setStretchFactor(1, 1);
-  auto* running = new QHBoxLayout;
-  running->addWidget(progress_text_, 1);
-  running->addWidget(progress_, 1);
-  running->addWidget(stop_);
-  auto* buttons = new QHBoxLayout;
-  buttons->addWidget(count_, 1);
-  buttons->addWidget(import_);
-  buttons->addWidget(close_);
   auto* layout = new QVBoxLayout(this);
   layout->addLayout(head);
   layout->addWidget(warnings_);
   layout->addWidget(parts, 1);
-  layout->addWidget(problem_);
-  layout->addLayout(running);
-  layout->addLayout(buttons);
+  layout->addWidget(foot_);
 }
 
 void ImportDialog::connectParts() {
@@ -167,7 +138,7 @@ void ImportDialog::connectParts() {
     });
   }
   connect(as_found_, &QPushButton::clicked, this, &ImportDialog::takeAsFound);
-  connect(stop_, &QPushButton::clicked, this, [this] {
+  connect(foot_, &ImportFoot::stopWanted, this, [this] {
     if (work_.busy()) {
       work_.cancel();
     } else if (opened_) {
@@ -176,8 +147,8 @@ void ImportDialog::connectParts() {
       openRecording(path_);
     }
   });
-  connect(import_, &QPushButton::clicked, this, &ImportDialog::startImport);
-  connect(close_, &QPushButton::clicked, this, &QDialog::close);
+  connect(foot_, &ImportFoot::importWanted, this, &ImportDialog::startImport);
+  connect(foot_, &ImportFoot::closeWanted, this, &QDialog::close);
   connect(this, &QDialog::finished, this, [this] { work_.cancel(); });
   connect(&work_, &RecordingWork::opened, this, &ImportDialog::takeOpened);
   connect(&work_, &RecordingWork::looked, this, &ImportDialog::takeLook);
@@ -194,10 +165,9 @@ void ImportDialog::connectParts() {
   });
   connect(&work_, &RecordingWork::progressed, this,
           [this](const QString& stage, double fraction, const QString& text) {
-            progress_->setValue(static_cast<int>(1000 * fraction));
-            progress_text_->setText(stage == QLatin1String("look")    ? tr("Looking for motion…")
-                                    : stage == QLatin1String("write") ? text
-                                                                      : tr("Reading…"));
+            foot_->setProgress(fraction, stage == QLatin1String("look") ? tr("Looking for motion…")
+                                         : stage == QLatin1String("write") ? text
+                                                                           : tr("Reading…"));
           });
 }
 
@@ -209,13 +179,12 @@ void ImportDialog::openRecording(const QString& path) {
   look_.reset();
   moved_.clear();
   error_.reset();
-  note_.clear();
+  foot_->clearNote();
   form_->clear();
   topics_->setRecording(nullptr);
   time_line_->clear();
   stretches_->setStretches({});
-  progress_->setValue(0);
-  progress_text_->setText(tr("Reading…"));
+  foot_->setProgress(0.0, tr("Reading…"));
   work_.open(path_);
   showWarnings();
   retranslate();
@@ -342,7 +311,6 @@ void ImportDialog::showTaken() {
 }
 
 void ImportDialog::showWarnings() {
-  warnings_->clear();
   QStringList texts;
   const auto add = [&](const std::vector<Message>& warnings) {
     for (const Message& warning : warnings) {
@@ -352,9 +320,7 @@ void ImportDialog::showWarnings() {
   };
   if (opened_) add(opened_->warnings);
   if (look_) add(look_->warnings);
-  for (const QString& text : texts)
-    new QListWidgetItem(mark_icon(Mark::kDoubtful, palette()), text, warnings_);
-  warnings_->setVisible(!texts.isEmpty());
+  warnings_->setWarnings(texts);
 }
 
 void ImportDialog::showProblem(const std::optional<Error>& error) {
@@ -367,16 +333,15 @@ void ImportDialog::startImport() {
   ImportOptions options = this->options();
   options.scene_times_s = stretches_->sceneTimes();
   error_.reset();
-  note_.clear();
-  progress_->setValue(0);
+  foot_->clearNote();
+  foot_->setProgress(0.0, {});
   work_.import(opened_->recording, look_->survey, *form_->target(), options, form_->folder());
   refresh();
 }
 
 void ImportDialog::takeImported(const ImportSummary& summary, const QString& dataset) {
   if (!summary.has_camera) {
-    note_ = tr("%1 is written, without intrinsics: put a camera.yaml into it, then open it.")
-                .arg(dataset);
+    foot_->noteWithoutCamera(dataset);
     refresh();
     return;
   }
@@ -386,10 +351,7 @@ void ImportDialog::takeImported(const ImportSummary& summary, const QString& dat
 
 void ImportDialog::refresh() {
   const bool busy = work_.busy();
-  progress_->setVisible(busy);
-  stop_->setVisible(busy || (!look_ && !path_.isEmpty()));
-  stop_->setText(busy ? tr("&Stop") : tr("&Look again"));
-  if (!busy) progress_text_->clear();
+  foot_->setBusy(busy, !look_ && !path_.isEmpty());
   const std::vector<bool> taken = stretches_->taken();
   const bool any = std::find(taken.begin(), taken.end(), true) != taken.end();
   QString problem = error_ ? core_text(*error_) : QString();
@@ -399,20 +361,12 @@ void ImportDialog::refresh() {
   } else if (problem.isEmpty() && look_ && !busy && !any) {
     problem = tr("Tick the stretches that are to become scenes.");
   }
-  if (problem.isEmpty()) problem = note_;
-  if (!problem.isEmpty()) problem[0] = problem[0].toUpper();
-  problem_->setText(problem);
-  problem_->setVisible(!problem.isEmpty());
+  foot_->setProblem(problem);
   form_->setEnabled(opened_.has_value());
-  import_->setEnabled(look_ && any && !busy && form_->target() && form_->problem().isEmpty());
+  foot_->setReady(look_ && any && !busy && form_->target() && form_->problem().isEmpty());
   const int scenes = stretches_->expectedScenes();
-  count_->setText(look_ ? tr("%1 of %2 still stretches become scenes").arg(scenes).arg(taken.size())
+  foot_->setCount(look_ ? tr("%1 of %2 still stretches become scenes").arg(scenes).arg(taken.size())
                         : QString());
-}
-
-void ImportDialog::changeEvent(QEvent* event) {
-  QDialog::changeEvent(event);
-  if (event->type() == QEvent::PaletteChange && warnings_ != nullptr) showWarnings();
 }
 
 void ImportDialog::retranslate() {
@@ -429,8 +383,6 @@ void ImportDialog::retranslate() {
   }
   title_->setText(title);
   other_->setText(tr("&Other recording…"));
-  import_->setText(tr("Import and &calibrate"));
-  close_->setText(tr("Close"));
   edges_->setText(tr("&Edges of the stretch:"));
   as_found_->setText(tr("&As found"));
   as_found_->setToolTip(tr("The edges as they were found, where nothing moves in between"));

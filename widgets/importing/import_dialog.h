@@ -9,13 +9,13 @@
 
 class QDoubleSpinBox;
 class QLabel;
-class QListWidget;
-class QProgressBar;
 class QPushButton;
 
 namespace lvcalib::widgets {
 
+class ImportFoot;
 class ImportForm;
+class ImportWarnings;
 class StretchList;
 class TimeLine;
 class TopicList;
@@ -37,9 +37,6 @@ class ImportDialog : public QDialog {
  Q_SIGNALS:
   /// The dataset is complete and can be opened.
   void imported(const QString& dataset, const lvcalib::ImportSummary& summary);
-
- protected:
-  void changeEvent(QEvent* event) override;
 
  private:
   void build();
@@ -70,26 +67,19 @@ class ImportDialog : public QDialog {
   std::optional<Error> error_;
   std::vector<MovedEdges> moved_;
   std::vector<MovedEdges> moved_shown_;  // Those that the look is of.
-  QString note_;                         // Written, but not to be opened yet.
 
   QLabel* title_;
   QPushButton* other_;
   TopicList* topics_;
   ImportForm* form_;
-  QListWidget* warnings_;
+  ImportWarnings* warnings_;
   TimeLine* time_line_;
   StretchList* stretches_;
   QLabel* edges_;
   QDoubleSpinBox* first_;
   QDoubleSpinBox* last_;
   QPushButton* as_found_;
-  QLabel* count_;
-  QLabel* problem_;
-  QProgressBar* progress_;
-  QLabel* progress_text_;
-  QPushButton* stop_;
-  QPushButton* import_;
-  QPushButton* close_;
+  ImportFoot* foot_;
   RecordingWork work_;  // Last: stopped before what it tells goes.
 };
 

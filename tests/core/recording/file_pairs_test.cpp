@@ -42,7 +42,7 @@ TEST_F(FilePairs, OfTheSameNameInOneFolder) {
   touch({"b.png", "a.jpg", "a.pcd", "b.ply", "alone.png", "notes.txt", ".hidden.png"});
   const auto found = find();
   EXPECT_THAT(names_of(found), ElementsAre("a.jpg a.pcd", "b.png b.ply"));
-  EXPECT_EQ(found->layout, "files of the same name");
+  EXPECT_EQ(found->layout, FileLayout::kSameName);
   ASSERT_EQ(found->unmatched.size(), 1U);
   EXPECT_EQ(found->unmatched[0].name, "alone.png");
   EXPECT_TRUE(looks_like_file_pairs(folder_.path()));
@@ -60,7 +60,7 @@ TEST_F(FilePairs, OfTheSameNameOrNumberInTwoFolders) {
   touch({"lidar/scan-1.pcd", "lidar/scan-12.pcd"});
   const auto by_number = find();
   EXPECT_THAT(names_of(by_number), ElementsAre("0001.png scan-1.pcd"));
-  EXPECT_EQ(by_number->layout, "files of the same number");
+  EXPECT_EQ(by_number->layout, FileLayout::kSameNumber);
 }
 
 TEST_F(FilePairs, NumbersThatSeveralFilesHaveMatchNothing) {
@@ -76,7 +76,7 @@ TEST_F(FilePairs, ByTheTimesThatAreTheirNames) {
   touch({"i/1650000000040000000.png", "i/1650000000140000000.png", "i/1650000000470000000.png",
          "i/1650000001300000000.png"});
   const auto found = find();
-  EXPECT_EQ(found->layout, "files of the nearest time");
+  EXPECT_EQ(found->layout, FileLayout::kNearestTime);
   EXPECT_THAT(names_of(found), ElementsAre("1650000000040000000.png 1650000000.000.pcd",
                                            "1650000000470000000.png 1650000000.500.pcd"));
   ASSERT_TRUE(found->pairs[0].apart_s.has_value());
@@ -131,7 +131,7 @@ TEST_F(FilePairs, KittiRawDrives) {
     const auto found = find_pairs(options);
     EXPECT_THAT(names_of(found),
                 ElementsAre("0000000000.png 0000000000.bin", "0000000002.png 0000000002.bin"));
-    EXPECT_EQ(found->layout, "KITTI raw");
+    EXPECT_EQ(found->layout, FileLayout::kKittiRaw);
     EXPECT_NE(found->pairs[0].image.string().find("image_02"), std::string::npos);
     EXPECT_NEAR(found->pairs[0].apart_s.value_or(9), 0.02, 1e-6);
     EXPECT_NEAR(found->pairs[1].apart_s.value_or(9), 0.02, 1e-6) << "across midnight";
@@ -154,7 +154,7 @@ TEST_F(FilePairs, SamplesOfCamLidarCalibration) {
   options.images = options.images.parent_path();
   const auto found = find_pairs(options);
   EXPECT_THAT(names_of(found), ElementsAre("pose1.png pose1_full.pcd"));
-  EXPECT_EQ(found->layout, "cam_lidar_calibration");
+  EXPECT_EQ(found->layout, FileLayout::kCamLidarCalibration);
   EXPECT_EQ(found->pairs[0].board_points.filename(), "pose1_target.pcd");
   ASSERT_TRUE(found->camera.has_value());
   EXPECT_EQ(found->camera->fx, 500.0);
@@ -165,7 +165,7 @@ TEST_F(FilePairs, BrokenIntrinsicsOfOthersAreAWarning) {
   folder_.write("calib.json", "{}");
   const auto found = find();
   EXPECT_THAT(names_of(found), ElementsAre("a.png a.ply"));
-  EXPECT_EQ(found->layout, "direct_visual_lidar_calibration");
+  EXPECT_EQ(found->layout, FileLayout::kDirectVisual);
   EXPECT_FALSE(found->camera.has_value()) << "the image has no size that could be read";
   folder_.write("camera.yaml", "fx: [");
   fs::remove(folder_.path() / "calib.json");
@@ -180,7 +180,7 @@ TEST_F(FilePairs, ImagesWithRecordingsOfFastCalib) {
   touch({"11.jpg", "11.bag", "22.jpg", "22.bag", "33.bag"});
   const auto found = find();
   EXPECT_THAT(names_of(found), ElementsAre("11.jpg 11.bag", "22.jpg 22.bag"));
-  EXPECT_EQ(found->layout, "FAST-Calib");
+  EXPECT_EQ(found->layout, FileLayout::kFastCalib);
   EXPECT_TRUE(looks_like_file_pairs(folder_.path()));
 }
 

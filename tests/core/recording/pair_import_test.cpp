@@ -273,7 +273,7 @@ TEST_F(PairImport, ARecordingOfOnePoseIsOneCloud) {
   test::write_bytes(folder_.path() / "11.bag", test::ros1_bag(messages, {}));
   fs::copy_file(file(0, "image.png"), folder_.path() / "11.png");
   const auto files = found();
-  EXPECT_EQ(files.layout, "FAST-Calib");
+  EXPECT_EQ(files.layout, FileLayout::kFastCalib);
   const auto summary = import_pairs(files, options(), dataset(), {});
   ASSERT_TRUE(summary.ok()) << summary.error().text();
   const auto read = read_cloud(dataset() / "scenes" / "11" / "cloud.pcd");

@@ -84,9 +84,9 @@ TEST_F(FilesDialogTest, FromFoldersToAnExtrinsic) {
   EXPECT_EQ(pairs().topLevelItem(0)->text(4), "seen");
   EXPECT_FALSE(pairs().topLevelItem(0)->icon(0).isNull());
   pairs().topLevelItem(0)->setCheckState(0, Qt::Unchecked);
-  EXPECT_TRUE(text("files_count").startsWith(QString::number(scenes_ - 1)));
+  EXPECT_TRUE(text("import_count").startsWith(QString::number(scenes_ - 1)));
   pairs().topLevelItem(0)->setCheckState(0, Qt::Checked);
-  button("files_import").click();
+  button("import_start").click();
   ASSERT_TRUE(wait_until([&] { return dialog() == nullptr; }));
   ASSERT_TRUE(test::wait_for_result(*window_));
   EXPECT_EQ(window_->workspace().result()->scenes.size(), static_cast<std::size_t>(scenes_));
@@ -96,7 +96,7 @@ TEST_F(FilesDialogTest, WhatIsUntickedIsNoScene) {
   QFile::copy(camera_, file("camera.yaml"));
   open(folder_.filePath("rig"));
   for (int i = 1; i < scenes_; ++i) pairs().topLevelItem(i)->setCheckState(0, Qt::Unchecked);
-  button("files_import").click();
+  button("import_start").click();
   ASSERT_TRUE(wait_until([&] { return window_->workspace().is_open(); }));
   EXPECT_EQ(window_->workspace().dataset().scenes.size(), 1U);
   window_->workspace().cancel();
@@ -110,16 +110,16 @@ TEST_F(FilesDialogTest, WithoutIntrinsicsTheyCanBeChosen) {
   EXPECT_TRUE(pairs().topLevelItem(0)->text(4).isEmpty()) << "nobody can look for the board";
   answers_.camera = folder_.filePath("nothing.yaml");
   cameras->setCurrentIndex(cameras->findData("choose"));
-  EXPECT_TRUE(text("files_problem").contains("nothing.yaml"));
+  EXPECT_TRUE(text("import_problem").contains("nothing.yaml"));
   answers_.camera = camera_;
   cameras->setCurrentIndex(cameras->findData("choose"));
   EXPECT_EQ(cameras->currentData().toString(), "file:");
-  EXPECT_TRUE(text("files_problem").isEmpty()) << text("files_problem").toStdString();
+  EXPECT_TRUE(text("import_problem").isEmpty()) << text("import_problem").toStdString();
   ASSERT_TRUE(wait_for_boards());
   cameras->setCurrentIndex(cameras->findData("none"));
-  button("files_import").click();
+  button("import_start").click();
   ASSERT_TRUE(wait_until([&] { return !dialog()->busy(); }));
-  EXPECT_TRUE(text("files_problem").contains("without intrinsics"));
+  EXPECT_TRUE(text("import_problem").contains("without intrinsics"));
   EXPECT_TRUE(QFile::exists(folder_.filePath("made/target.yaml")));
   EXPECT_FALSE(window_->workspace().is_open());
 }
@@ -129,13 +129,13 @@ TEST_F(FilesDialogTest, AnotherRuleLooksAgainAndErrorsAreOneMessage) {
   ASSERT_GT(pairs().topLevelItemCount(), 0);
   auto* rule = find<QComboBox>(*dialog(), "pair_rule");
   rule->setCurrentIndex(2);
-  ASSERT_TRUE(wait_until([&] { return !dialog()->busy() && !text("files_problem").isEmpty(); }));
-  EXPECT_TRUE(text("files_problem").contains("no times")) << text("files_problem").toStdString();
+  ASSERT_TRUE(wait_until([&] { return !dialog()->busy() && !text("import_problem").isEmpty(); }));
+  EXPECT_TRUE(text("import_problem").contains("no times")) << text("import_problem").toStdString();
   EXPECT_EQ(pairs().topLevelItemCount(), 0);
-  EXPECT_FALSE(button("files_import").isEnabled());
+  EXPECT_FALSE(button("import_start").isEnabled());
   rule->setCurrentIndex(1);
   ASSERT_TRUE(wait_until([&] { return pairs().topLevelItemCount() == scenes_; }));
-  EXPECT_TRUE(button("files_import").isEnabled());
+  EXPECT_TRUE(button("import_start").isEnabled());
 }
 
 TEST_F(FilesDialogTest, AFolderOfPairsThatIsDroppedOrOpenedComesHere) {

@@ -91,7 +91,7 @@ TEST_F(WatchFolderTest, AFolderOfFilesMakesADatasetThatGrows) {
   ASSERT_TRUE(wait_until([&] { return !dialog->busy(); }));
   auto* cameras = find<QComboBox>(*dialog, "files_camera");
   cameras->setCurrentIndex(cameras->findData("choose"));
-  auto* import = find<QPushButton>(*dialog, "files_import");
+  auto* import = find<QPushButton>(*dialog, "import_start");
   ASSERT_TRUE(wait_until([&] { return import->isEnabled(); }, 20'000));
   import->click();
   ASSERT_TRUE(wait_until([&] { return window_->watch_work().watchingFiles(); }));
