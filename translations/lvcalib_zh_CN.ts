@@ -4098,10 +4098,6 @@ were saved. Take them up again?</source>
         <translation>请让标定板露出更多、更近、更清晰或光照更好</translation>
     </message>
     <message>
-        <source>sizes of users&apos; effects: expected 0 &lt; material &lt; believable</source>
-        <translation>用户效应的大小：应为 0 &lt; 显著值 &lt; 可信值</translation>
-    </message>
-    <message>
         <source>splines of users&apos; curves: expected 5 to 100, or 5 to 20 along each of two</source>
         <translation>用户曲线的样条数：应为 5 到 100，或在两个方向上各为 5 到 20</translation>
     </message>
@@ -5184,6 +5180,10 @@ were saved. Take them up again?</source>
     <message>
         <source>one usable scene; a target without circles needs three or more, differently turned</source>
         <translation>可用场景 1 个；没有圆的标定板需要三个或更多朝向不同的场景</translation>
+    </message>
+    <message>
+        <source>sizes of users&apos; effects: expected 0 &lt; size of interest &lt; believable size</source>
+        <translation>用户自定义效应的大小：应满足 0 &lt; 关注大小 &lt; 可信大小</translation>
     </message>
 </context>
 <context>
@@ -8752,10 +8752,6 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
         <translation>看不到什么</translation>
     </message>
     <message>
-        <source>Effects that these scenes could not show, and by how much they would spoil the extrinsic at the size that matters</source>
-        <translation>这些场景无法显示的效应，以及达到有影响的大小时会使外参偏离多少</translation>
-    </message>
-    <message>
         <source>Effect</source>
         <translation>效应</translation>
     </message>
@@ -8826,6 +8822,10 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
     <message>
         <source>Scenes that would tell what these cannot, and what else would</source>
         <translation>能说明这些场景无法说明之处的场景，以及其他办法</translation>
+    </message>
+    <message>
+        <source>Effects that these scenes do not show, and by how much each could move the extrinsic all the same</source>
+        <translation>这些场景看不出的效应，以及每个效应仍可能使外参移动多少</translation>
     </message>
 </context>
 <context>
@@ -11138,16 +11138,16 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
         <translation>选择一个效应，在加入模型之前查看它会在残差中留下什么（橙色）。</translation>
     </message>
     <message>
-        <source>Orange: what the poses would leave of it; %1%2 is the size that matters.</source>
-        <translation>橙色：位姿吸收后的残留；有影响的大小为 %1%2。</translation>
-    </message>
-    <message>
         <source>&lt;b&gt;What if&lt;/b&gt;</source>
         <translation>&lt;b&gt;假如&lt;/b&gt;</translation>
     </message>
     <message>
         <source>Size of the effect</source>
         <translation>效应的大小</translation>
+    </message>
+    <message>
+        <source>Orange: what the poses would leave of it. New scenes are planned to show %1%2.</source>
+        <translation>橙色：位姿调整后剩下的部分。规划新场景时以能看出 %1%2 为准。</translation>
     </message>
 </context>
 <context>

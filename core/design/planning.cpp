@@ -126,7 +126,7 @@ std::size_t nearest_to(const Rigid3& camera_from_board, const std::vector<GridPo
       poses.begin());
 }
 
-// Smallest |t| of a material size over an effect's parameters, with the extrinsic free.
+// Smallest |t| of the size of interest over an effect's parameters, with the extrinsic free.
 double visibility(const EffectColumns& c, const Eigen::MatrixXd& h) {
   std::vector<Eigen::Index> at(6);
   std::iota(at.begin(), at.end(), 0);
@@ -137,7 +137,7 @@ double visibility(const EffectColumns& c, const Eigen::MatrixXd& h) {
   double least = HUGE_VAL;
   for (int k = 0; k < c.count(); ++k) {
     const double sigma = std::sqrt(std::max(1e-300, covariance(6 + k, 6 + k)));
-    least = std::min(least, c.parameters[static_cast<std::size_t>(k)].material / sigma);
+    least = std::min(least, c.parameters[static_cast<std::size_t>(k)].size_of_interest / sigma);
   }
   return least;
 }

@@ -12,7 +12,7 @@ namespace lvcalib {
 struct PlanOptions {
   int scenes = 6;                    ///< 1 … 100.
   std::vector<std::string> effects;  ///< Of the catalogue: to be made testable as well.
-  double testable = 3.0;             ///< A material size shall stand so many σ above zero.
+  double testable = 3.0;             ///< The size of interest stands so many σ above zero.
   double corner_sigma_px = 0.05;
   /// What is known of the extrinsic before: its covariance (left perturbation, camera frame; metres
   /// and radians), as the result of scenes that are taken states it. Absent: nothing. Of effects
@@ -25,7 +25,7 @@ struct PlanOptions {
   [[nodiscard]] Status check() const;
 };
 
-/// How far an effect's material size stands above zero.
+/// How far an effect's size of interest stands above zero.
 struct EffectVisibility {
   std::string id;
   double sigmas = 0.0;
@@ -49,10 +49,10 @@ struct ScenePlan {
 };
 
 /// Chooses board poses one after the other from a grid, each the one that most reduces the volume
-/// of the extrinsic's uncertainty (D-optimality) and lifts the wanted effects' material sizes above
-/// `testable` σ. The covariance is that of the measurements' noise alone, as calibrate states it.
-/// Errors: kUsage for options and unknown effects; kInput if an effect needs what the LiDAR or the
-/// board lacks, or if no pose of the grid is in view of both sensors; kCancelled.
+/// of the extrinsic's uncertainty (D-optimality) and lifts the wanted effects' sizes of interest
+/// above `testable` σ. The covariance is that of the measurements' noise alone, as calibrate states
+/// it. Errors: kUsage for options and unknown effects; kInput if an effect needs what the LiDAR or
+/// the board lacks, or if no pose of the grid is in view of both sensors; kCancelled.
 Result<ScenePlan> plan_scenes(const Target& target, const Camera& camera,
                               const LidarDescription& lidar, const PlanOptions& options,
                               const RunContext& context);

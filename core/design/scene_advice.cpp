@@ -150,8 +150,8 @@ Message make_visible(const Knowledge& known, const std::string& id, const Unseen
             .solve(Eigen::MatrixXd::Identity(effect.block.count, effect.block.count));
     double least = HUGE_VAL;
     for (Eigen::Index k = 0; k < effect.block.count; ++k) {
-      const double material = effect.columns.parameters[static_cast<std::size_t>(k)].material;
-      least = std::min(least, material / std::sqrt(std::max(1e-300, covariance(k, k))));
+      const double wanted = effect.columns.parameters[static_cast<std::size_t>(k)].size_of_interest;
+      least = std::min(least, wanted / std::sqrt(std::max(1e-300, covariance(k, k))));
     }
     return least;
   };

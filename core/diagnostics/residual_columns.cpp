@@ -46,7 +46,7 @@ struct Adaptation {
     ColumnSubset subset;
     append_columns(columns.list().front(), nullptr, subset);
     for (std::size_t k = 0; k < parameters.size(); ++k) {
-      subset.prior_sigma[k] = 1e-6 * parameters[k].material;
+      subset.prior_sigma[k] = 1e-6 * parameters[k].size_of_interest;
     }
     // One set of variances for both, so that the response is linear in the values.
     const ModelFit untold = fit_model(linear, subset, {}, {});
@@ -141,7 +141,7 @@ std::vector<Channel> channels_of(const Effect& effect, double shape, const Fitte
       // The pointer does not own: the effect outlives this call.
       EffectInUse use{EffectPtr(EffectPtr(), &effect), shape,
                       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()))};
-      use.values(static_cast<Eigen::Index>(p)) = parameters[p].material;
+      use.values(static_cast<Eigen::Index>(p)) = parameters[p].size_of_interest;
       const ChannelResiduals with = residuals_of(few, model.state, {use}, channel);
       for (std::size_t k = 0; k < with.values.size(); ++k)
         any = any || std::abs(with.values[k] - without.values[k]) > 1e-3 * without.sigma[k];

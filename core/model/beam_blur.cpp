@@ -27,8 +27,11 @@ class BeamBlur final : public CatalogueEffect {
  private:
   // No LiDAR's beam is wider than a hundredth of a radian.
   static EffectParameter blur(const char* name) {
-    return {
-        .name = name, .unit = "mrad²", .unit_in_si = 1e-6, .material = 1e-7, .prior_sigma = 1e-4};
+    return {.name = name,
+            .unit = "mrad²",
+            .unit_in_si = 1e-6,
+            .size_of_interest = 1e-7,
+            .prior_sigma = 1e-4};
   }
 };
 

@@ -18,7 +18,7 @@ std::vector<EffectParameter> intrinsics() {
     const bool in_pixels = k < 4;
     out.push_back({.name = kNames[k],
                    .unit = in_pixels ? "px" : "1",
-                   .material = in_pixels ? 0.5 : 1e-3,
+                   .size_of_interest = in_pixels ? 0.5 : 1e-3,
                    .prior_sigma = in_pixels ? 100.0 : 1.0});
   }
   return out;

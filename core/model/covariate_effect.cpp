@@ -93,7 +93,7 @@ EffectInfo user_effect_info(const UserEffectSpec& spec,
 EffectParameter user_parameter(const std::string& name, Channel channel, double rms,
                                const UserEffectOptions& options) {
   const auto c = static_cast<std::size_t>(channel);
-  return {name, unit_of(channel), 1.0 / display_factor(channel), options.material[c] / rms,
+  return {name, unit_of(channel), 1.0 / display_factor(channel), options.size_of_interest[c] / rms,
           options.believable[c] / rms};
 }
 

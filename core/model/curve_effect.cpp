@@ -17,7 +17,7 @@ class CurveEffect final : public CovariateEffect, public CurveView {
       : CovariateEffect(std::move(info), channel, std::move(covariates)),
         basis_(std::move(basis)),
         believable_(options.believable[static_cast<std::size_t>(channel)]),
-        material_(options.material[static_cast<std::size_t>(channel)]) {
+        size_of_interest_(options.size_of_interest[static_cast<std::size_t>(channel)]) {
     info_.physics = "A smooth curve that the user asked for; no physics stands behind it.";
     std::vector<EffectParameter> parameters;
     for (int k = 0; k < basis_.columns(); ++k)
@@ -28,7 +28,8 @@ class CurveEffect final : public CovariateEffect, public CurveView {
   // From stiff to loose, four to one apart.
   [[nodiscard]] std::vector<double> shapes(const MeasurementTable&) const override {
     std::vector<double> out;
-    for (double size = 0.25 * material_; size < 2.0 * believable_; size *= 4.0) out.push_back(size);
+    for (double size = 0.25 * size_of_interest_; size < 2.0 * believable_; size *= 4.0)
+      out.push_back(size);
     return out;
   }
   [[nodiscard]] std::string shape_name() const override { return "roughness (SI)"; }
@@ -64,7 +65,7 @@ class CurveEffect final : public CovariateEffect, public CurveView {
  private:
   CurveBasis basis_;
   double believable_;
-  double material_;
+  double size_of_interest_;
 };
 
 Error error(const UserEffectSpec& spec, const Message& what) {

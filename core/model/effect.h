@@ -39,10 +39,10 @@ constexpr FaultKind kind_of(DeviceFault fault) {
 /// One linear coefficient of an effect. Values are in SI units (m, rad, s, px, 1).
 struct EffectParameter {
   std::string name;
-  std::string unit;          ///< For people: "mm", "ppm", "mrad", "px", "1".
-  double unit_in_si = 1.0;   ///< One unit in SI.
-  double material = 0.0;     ///< Size (SI) that planned scenes shall show; no verdict asks it.
-  double prior_sigma = 0.0;  ///< Standard deviation (SI) of what is believable.
+  std::string unit;               ///< For people: "mm", "ppm", "mrad", "px", "1".
+  double unit_in_si = 1.0;        ///< One unit in SI.
+  double size_of_interest = 0.0;  ///< SI: what planned scenes shall show; no verdict asks it.
+  double prior_sigma = 0.0;       ///< Standard deviation (SI) of what is believable.
   double lowest = -std::numeric_limits<double>::infinity();  ///< No device has less (SI).
   /// Its usual size is in LeftOutSizes. It depends on the beam alone.
   std::optional<DeviceFault> device_fault = std::nullopt;

@@ -8,7 +8,8 @@ namespace {
 
 // Callers know how large it is: the prior of what is believable is theirs to set.
 EffectParameter offset() {
-  return {.name = "a", .unit = "mm", .unit_in_si = 1e-3, .material = 1e-3, .prior_sigma = 0.05};
+  return {
+      .name = "a", .unit = "mm", .unit_in_si = 1e-3, .size_of_interest = 1e-3, .prior_sigma = 0.05};
 }
 
 EffectInfo described(const char* id, const char* title, const char* formula) {

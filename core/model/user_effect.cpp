@@ -118,8 +118,9 @@ Result<EffectPtr> make(const std::string& text, const MeasurementTable* table,
 
 Status UserEffectOptions::check() const {
   for (std::size_t c = 0; c < kChannels; ++c) {
-    if (!(material[c] > 0.0) || !(believable[c] > material[c]))
-      return Error::usage(Message("sizes of users' effects: expected 0 < material < believable"));
+    if (!(size_of_interest[c] > 0.0) || !(believable[c] > size_of_interest[c]))
+      return Error::usage(
+          Message("sizes of users' effects: expected 0 < size of interest < believable size"));
   }
   if (curve_splines < 5 || tensor_splines < 5 || curve_splines > 100 || tensor_splines > 20)
     return Error::usage(

@@ -27,7 +27,7 @@ void hold_last(const EffectColumns& columns, ColumnSubset& subset) {
   const std::size_t first = subset.columns.size() - columns.parameters.size();
   std::erase_if(subset.zero_sums, [&](const auto& run) { return run.first >= first; });
   for (std::size_t k = 0; k < columns.parameters.size(); ++k) {
-    subset.prior_sigma[first + k] = 1e-6 * columns.parameters[k].material;
+    subset.prior_sigma[first + k] = 1e-6 * columns.parameters[k].size_of_interest;
     subset.prior_mean[first + k] = 0.0;
   }
 }
@@ -38,7 +38,8 @@ void hold_at_zero(const EffectColumns& columns, const Eigen::VectorXd& values,
                   ColumnSubset& subset) {
   for (int p = 0; p < columns.count(); ++p) {
     const auto at = static_cast<std::size_t>(columns.first + p);
-    subset.prior_sigma[at] = 1e-6 * columns.parameters[static_cast<std::size_t>(p)].material;
+    subset.prior_sigma[at] =
+        1e-6 * columns.parameters[static_cast<std::size_t>(p)].size_of_interest;
     subset.prior_mean[at] = -values(p);
   }
 }

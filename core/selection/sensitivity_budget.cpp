@@ -46,8 +46,8 @@ BudgetItem item_of(const EffectColumns& columns, const Candidate& candidate) {
     const double limit = std::abs(theta(k)) + spread;
     const double squares = theta(k) * theta(k) + spread * spread;
     if (squares > 0.0) from_squares = std::max(from_squares, limit * limit / squares);
-    if (limit / parameter.material <= largest) continue;
-    largest = limit / parameter.material;
+    if (limit / parameter.size_of_interest <= largest) continue;
+    largest = limit / parameter.size_of_interest;
     out.parameter = parameter.name;
     out.unit = parameter.unit;
     out.size = limit / parameter.unit_in_si;

@@ -33,13 +33,13 @@ QString searched_text(const EffectInfo& info) {
          core_text(Message::listed(info.title)) + core_text(Message::listed(info.physics));
 }
 
-// Each parameter at the size that matters.
-EffectInUse material_size(const EffectPtr& effect, const ModelStep& step) {
+// Each parameter at the size that planned scenes shall show.
+EffectInUse at_size_of_interest(const EffectPtr& effect, const ModelStep& step) {
   EffectInUse use{effect, effect->shapes(step.table()).front(), {}};
   const auto parameters = effect->parameters(step.table());
   use.values.resize(static_cast<Eigen::Index>(parameters.size()));
   for (std::size_t k = 0; k < parameters.size(); ++k)
-    use.values(static_cast<Eigen::Index>(k)) = parameters[k].material;
+    use.values(static_cast<Eigen::Index>(k)) = parameters[k].size_of_interest;
   return use;
 }
 
@@ -268,7 +268,7 @@ void AddEffectDialog::describe() {
                  line(tr("Source:"), info.source));
   if (why_not_testable(*effect, step_->table()).empty()) {
     pattern_->setFigure(nullptr, tr("its pattern is being drawn …"));
-    source_->requestPattern(material_size(effect, *step_));
+    source_->requestPattern(at_size_of_interest(effect, *step_));
   } else {
     pattern_->setFigure(nullptr, tr("not with these measurements"));
   }

@@ -445,8 +445,9 @@ void MissingPane::retranslate() {
   tabs_->setTabText(2, tr("Next scenes"));
   tabs_->setTabToolTip(2, tr("Scenes that would tell what these cannot, and what else would"));
   advice_->setAccessibleName(tr("Next scenes"));
-  tabs_->setTabToolTip(1, tr("Effects that these scenes could not show, and by how much they would "
-                             "spoil the extrinsic at the size that matters"));
+  tabs_->setTabToolTip(1,
+                       tr("Effects that these scenes do not show, and by how much each could move "
+                          "the extrinsic all the same"));
   list_->setHeaderLabels({tr("Effect"), tr("Verdict"), tr("Error")});
   list_->setAccessibleName(tr("What is missing"));
   budget_->setHeaderLabels({tr("Effect"), tr("Could move by")});

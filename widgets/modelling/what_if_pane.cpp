@@ -19,8 +19,8 @@
 namespace lvcalib::widgets {
 namespace {
 
-constexpr int kSteps = 200;           // of the slider on each side of zero
-constexpr double kMostMaterial = 10;  // its ends, in sizes that matter
+constexpr int kSteps = 200;   // of the slider on each side of zero
+constexpr double kMost = 10;  // Its ends, in sizes of interest.
 
 }  // namespace
 
@@ -60,7 +60,7 @@ WhatIfPane::WhatIfPane(QWidget* parent)
   connect(size_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
     const EffectParameter* p = parameter();
     if (p == nullptr) return;
-    const double share = value * p->unit_in_si / (kMostMaterial * p->material);
+    const double share = value * p->unit_in_si / (kMost * p->size_of_interest);
     const QSignalBlocker quiet(slider_);
     slider_->setValue(static_cast<int>(std::lround(kSteps * share)));
     Q_EMIT scaleChanged(scale());
@@ -75,10 +75,10 @@ const EffectParameter* WhatIfPane::parameter() const {
              : nullptr;
 }
 
-// The pattern is made at the size that matters.
+// The pattern is made at the size of interest.
 double WhatIfPane::scale() const {
   const EffectParameter* p = parameter();
-  return p == nullptr ? 0.0 : size_->value() * p->unit_in_si / p->material;
+  return p == nullptr ? 0.0 : size_->value() * p->unit_in_si / p->size_of_interest;
 }
 
 void WhatIfPane::setStep(const ModelStepPtr& step) {
@@ -140,21 +140,22 @@ void WhatIfPane::choose() {
   }
   {
     const QSignalBlocker quiet(size_);
-    const double most = kMostMaterial * p->material / p->unit_in_si;
+    const double most = kMost * p->size_of_interest / p->unit_in_si;
     size_->setRange(-most, most);
     size_->setDecimals(std::clamp(3 - static_cast<int>(std::floor(std::log10(most))), 0, 6));
     size_->setSingleStep(most / kSteps);
     size_->setSuffix(unit_behind(p->unit));
-    size_->setValue(p->material / p->unit_in_si);
+    size_->setValue(p->size_of_interest / p->unit_in_si);
     const QSignalBlocker still(slider_);
-    slider_->setValue(static_cast<int>(kSteps / kMostMaterial));
+    slider_->setValue(static_cast<int>(kSteps / kMost));
   }
-  note_->setText(tr("Orange: what the poses would leave of it; %1%2 is the size that matters.")
-                     .arg(p->material / p->unit_in_si)
-                     .arg(unit_behind(p->unit)));
+  note_->setText(
+      tr("Orange: what the poses would leave of it. New scenes are planned to show %1%2.")
+          .arg(p->size_of_interest / p->unit_in_si)
+          .arg(unit_behind(p->unit)));
   EffectInUse use{effect_, effect_->shapes(step_->table()).front(),
                   Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters_.size()))};
-  use.values(names_->currentIndex()) = p->material;
+  use.values(names_->currentIndex()) = p->size_of_interest;
   Q_EMIT effectChosen(use, scale());
 }
 
@@ -162,7 +163,7 @@ void WhatIfPane::resize() {
   const EffectParameter* p = parameter();
   if (p == nullptr) return;
   const QSignalBlocker quiet(size_);
-  size_->setValue(kMostMaterial * p->material / p->unit_in_si * slider_->value() / kSteps);
+  size_->setValue(kMost * p->size_of_interest / p->unit_in_si * slider_->value() / kSteps);
   Q_EMIT scaleChanged(scale());
 }
 

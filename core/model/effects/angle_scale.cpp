@@ -20,13 +20,13 @@ class AngleScale final : public CatalogueEffect {
                         {{.name = "azimuth",
                           .unit = "ppm",
                           .unit_in_si = 1e-6,
-                          .material = 500e-6,
+                          .size_of_interest = 500e-6,
                           .prior_sigma = 0.02,
                           .device_fault = DeviceFault::kAzimuthScale},
                          {.name = "elevation",
                           .unit = "ppm",
                           .unit_in_si = 1e-6,
-                          .material = 500e-6,
+                          .size_of_interest = 500e-6,
                           .prior_sigma = 0.02,
                           .device_fault = DeviceFault::kElevationScale}}) {}
 

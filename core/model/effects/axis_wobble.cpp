@@ -21,12 +21,12 @@ class AxisWobble final : public CatalogueEffect {
                         {{.name = "c",
                           .unit = "mrad",
                           .unit_in_si = 1e-3,
-                          .material = 0.5e-3,
+                          .size_of_interest = 0.5e-3,
                           .prior_sigma = 0.02},
                          {.name = "i",
                           .unit = "mrad",
                           .unit_in_si = 1e-3,
-                          .material = 0.5e-3,
+                          .size_of_interest = 0.5e-3,
                           .prior_sigma = 0.02,
                           .device_fault = DeviceFault::kAxisTilt}}) {}
 

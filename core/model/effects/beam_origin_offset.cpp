@@ -22,13 +22,13 @@ class BeamOriginOffset final : public CatalogueEffect {
             {{.name = "horizontal",
               .unit = "mm",
               .unit_in_si = 1e-3,
-              .material = 2e-3,
+              .size_of_interest = 2e-3,
               .prior_sigma = 0.05,
               .device_fault = DeviceFault::kOriginAcross},
              {.name = "vertical",
               .unit = "mm",
               .unit_in_si = 1e-3,
-              .material = 2e-3,
+              .size_of_interest = 2e-3,
               .prior_sigma = 0.05,
               .device_fault = DeviceFault::kOriginUp}}) {}
 

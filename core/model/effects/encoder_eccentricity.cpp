@@ -20,13 +20,13 @@ class EncoderEccentricity final : public CatalogueEffect {
                         {{.name = "a",
                           .unit = "mrad",
                           .unit_in_si = 1e-3,
-                          .material = 0.3e-3,
+                          .size_of_interest = 0.3e-3,
                           .prior_sigma = 0.02,
                           .device_fault = DeviceFault::kEccentricitySine},
                          {.name = "b",
                           .unit = "mrad",
                           .unit_in_si = 1e-3,
-                          .material = 0.3e-3,
+                          .size_of_interest = 0.3e-3,
                           .prior_sigma = 0.02,
                           .device_fault = DeviceFault::kEccentricityCosine}}) {}
 

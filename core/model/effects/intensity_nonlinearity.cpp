@@ -9,7 +9,7 @@ namespace {
 
 // What matters is what moves edges: at tenfold contrast and a transition of 3 mm, 0.2 moves them by
 // 0.36 mm, as much as an ink gain that matters.
-constexpr double kMaterial = 0.2;
+constexpr double kSizeOfInterest = 0.2;
 
 class IntensityNonlinearity final : public CatalogueEffect {
  public:
@@ -25,7 +25,7 @@ class IntensityNonlinearity final : public CatalogueEffect {
              .source = "Mitka and Klapa 2025",
              .discriminating_pose = "prints of several greys, or a reflectance chart",
              .needs = {.circles = true, .intensity = true}},
-            {{"g", "1", 1.0, kMaterial, 2.0}}) {}
+            {{"g", "1", 1.0, kSizeOfInterest, 2.0}}) {}
 
   // Levels of plain print tell nothing: every scene has its own, and a power of them is a level
   // too. The middle between two transformed levels is not the transformed middle. With the dark

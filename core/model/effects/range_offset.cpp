@@ -21,7 +21,7 @@ class RangeOffset final : public CatalogueEffect {
                         {{.name = "a",
                           .unit = "mm",
                           .unit_in_si = 1e-3,
-                          .material = 3e-3,
+                          .size_of_interest = 3e-3,
                           .prior_sigma = 0.05,
                           .device_fault = DeviceFault::kRangeOffset}}) {}
 

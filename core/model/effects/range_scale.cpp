@@ -21,7 +21,7 @@ class RangeScale final : public CatalogueEffect {
             {{.name = "m",
               .unit = "ppm",
               .unit_in_si = 1e-6,
-              .material = 500e-6,
+              .size_of_interest = 500e-6,
               .prior_sigma = 5e-3,
               .device_fault = DeviceFault::kRangeScale}}) {}
 

@@ -376,8 +376,8 @@ TEST(Catalogue, UnitsSayWhatTheirFactorsAre) {
       ASSERT_TRUE(factors.contains(p.unit)) << where << " " << p.unit;
       EXPECT_EQ(p.unit_in_si, factors.at(p.unit)) << where;
       // What matters lies within what is believable.
-      EXPECT_GT(p.material, 0.0) << where;
-      EXPECT_GT(p.prior_sigma, p.material) << where;
+      EXPECT_GT(p.size_of_interest, 0.0) << where;
+      EXPECT_GT(p.prior_sigma, p.size_of_interest) << where;
     }
   }
 }

@@ -51,7 +51,7 @@ TEST_P(EffectDerivative, ResidualsFallByTheColumnTimesTheValue) {
     EffectInUse use{effect, shape,
                     Eigen::VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()))};
     // Edges are curved: their prediction is linear in small displacements only.
-    const double step = 0.01 * parameters[p].material;
+    const double step = 0.01 * parameters[p].size_of_interest;
     use.values(static_cast<Eigen::Index>(p)) = step;
     std::array<double, kChannels> expected{};
     for (const SceneProducts& scene : linear.scenes) {
@@ -185,7 +185,7 @@ TEST(Linearize, RowsOfOneReturnSayWhatTheySayAlone) {
   for (const char* id : {"range_scale", "detector_lag", "boundary_bias"}) {
     const EffectPtr effect = find_effect(id);
     in_use.push_back({effect, 0.0, Eigen::VectorXd::Zero(1)});
-    in_use.back().values(0) = 0.1 * effect->parameters(made.table).front().material;
+    in_use.back().values(0) = 0.1 * effect->parameters(made.table).front().size_of_interest;
   }
   for (const EffectInUse& use : in_use) columns.add(use.effect, use.shape, made.table);
   for (const EffectPtr& effect : effect_catalogue())

@@ -111,8 +111,8 @@ TEST(UserEffect, PriorsAreTheSameInEffectWhateverTheUnits) {
     double squares = 0.0;
     for (const double d : moved) squares += d * d / static_cast<double>(moved.size());
     EXPECT_NEAR(std::sqrt(squares), options.believable[1], 1e-9) << text;
-    EXPECT_NEAR(p[0].material / p[0].prior_sigma, options.material[1] / options.believable[1],
-                1e-9);
+    EXPECT_NEAR(p[0].size_of_interest / p[0].prior_sigma,
+                options.size_of_interest[1] / options.believable[1], 1e-9);
   }
 }
 
@@ -175,7 +175,7 @@ TEST(UserEffect, TheSpecMakesTheSameEffectWithoutTheData) {
 TEST(UserEffect, OptionsAreChecked) {
   UserEffectOptions options;
   EXPECT_TRUE(options.check().ok());
-  options.material[1] = 1.0;
+  options.size_of_interest[1] = 1.0;
   EXPECT_FALSE(options.check().ok());
   options = {};
   options.tensor_splines = 2;

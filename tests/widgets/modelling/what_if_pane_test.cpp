@@ -26,7 +26,7 @@ TEST(WhatIfPaneTest, ASliderScalesThePatternOfAnEffect) {
   auto* effects = pane.findChild<QComboBox*>("what_if_effect");
   effects->setCurrentIndex(effects->findData("range_walk"));
   ASSERT_TRUE(effect);
-  EXPECT_DOUBLE_EQ(effect->values(0), 0.002) << "at the size that matters";
+  EXPECT_DOUBLE_EQ(effect->values(0), 0.002) << "at the size of interest";
   EXPECT_DOUBLE_EQ(scale, 1.0);
   auto* slider = pane.findChild<QSlider*>("what_if_slider");
   auto* size = pane.findChild<QDoubleSpinBox*>("what_if_size");

@@ -274,6 +274,39 @@ void photograph_import(widgets::MainWindow& window, Photographer& camera) {
   dialog->close();
 }
 
+// A simulated rig's files as others keep them, one cloud without its image.
+void photograph_files(widgets::MainWindow& window, Photographer& camera) {
+  const auto rig = simulation::simulate(test::walk_simulation(4, 60'000, 960, 600), {});
+  const QTemporaryDir folder;
+  const QDir source(folder.filePath(QStringLiteral("source")));
+  const QDir files(folder.filePath(QStringLiteral("parking-lot")));
+  if (!rig || !simulation::write_dataset(*rig, source.path().toStdString()).ok()) return;
+  for (const char* part : {"images", "clouds"}) files.mkpath(QLatin1String(part));
+  QFile::copy(source.filePath(QStringLiteral("camera.yaml")),
+              files.filePath(QStringLiteral("camera.yaml")));
+  for (const simulation::SimulatedScene& scene : rig->scenes) {
+    const QString name = QString::fromStdString(scene.name);
+    const auto copy = [&](const QString& file, const QString& to) {
+      QFile::copy(source.filePath(QStringLiteral("scenes/%1/%2").arg(name, file)),
+                  files.filePath(to));
+    };
+    if (&scene != &rig->scenes.back())
+      copy(QStringLiteral("image.png"), QStringLiteral("images/%1.png").arg(name));
+    copy(QStringLiteral("cloud.pcd"), QStringLiteral("clouds/%1.pcd").arg(name));
+  }
+  window.open(files.path());
+  auto* dialog = test::find<QDialog>(window, "files_dialog");
+  auto* pairs = test::find<QTreeWidget>(*dialog, "pairs");
+  test::wait_until([&] { return pairs->topLevelItemCount() > 0; });
+  test::wait_until([&] { return !pairs->topLevelItem(2)->text(4).isEmpty(); }, 20'000);
+  for (const char* theme : {"light", "dark"}) {
+    choose(window, "theme", QString::fromLatin1(theme));
+    camera.take(QStringLiteral("files-%1").arg(QLatin1String(theme)), dialog);
+  }
+  choose(window, "theme", QStringLiteral("light"));
+  dialog->close();
+}
+
 bool wait_for_model(widgets::MainWindow& window) {
   return test::wait_until([&] { return window.model_work().step() && !window.model_work().busy(); },
                           600'000);
@@ -443,7 +476,10 @@ int photograph(widgets::MainWindow& window, const QString& folder, const QString
   window.show();
   if (what == QLatin1String("covered")) return photograph_covered(window, camera, quick_theme);
   camera.take(QStringLiteral("welcome"));
-  if (!quick) photograph_import(window, camera);
+  if (!quick) {
+    photograph_import(window, camera);
+    photograph_files(window, camera);
+  }
   if (dataset.isEmpty()) {
     test::trigger(window, "demo");
   } else {
