@@ -12,7 +12,7 @@ namespace lvcalib {
 struct PlanOptions {
   int scenes = 6;                    ///< 1 … 100.
   std::vector<std::string> effects;  ///< Of the catalogue: to be made testable as well.
-  double testable = 3.0;             ///< The size of interest stands so many σ above zero.
+  double testable = 3.0;             ///< The size of interest is to stand so many σ above zero.
   double corner_sigma_px = 0.05;
   /// What is known of the extrinsic before: its covariance (left perturbation, camera frame; metres
   /// and radians), as the result of scenes that are taken states it. Absent: nothing. Of effects

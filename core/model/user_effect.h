@@ -16,7 +16,7 @@ namespace lvcalib {
 struct UserEffectOptions {
   /// Standard deviation of what is believable: the prior.
   std::array<double, kChannels> believable{10.0, 0.1, 0.02, 3.0};
-  /// Sizes of interest by channel (px, m, m, 1): see EffectParameter.
+  /// What planned scenes shall show, see EffectParameter.
   std::array<double, kChannels> size_of_interest{0.05, 2e-3, 0.3e-3, 0.1};
   int curve_splines = 10;  ///< Of a curve of one covariate.
   int tensor_splines = 8;  ///< Along each of two covariates.

@@ -209,13 +209,12 @@ QStringList FilesDialog::foundNames() const {
 void FilesDialog::look() {
   files_.reset();
   error_.reset();
-  foot_->clearNote();
   const PairOptions options = pairOptions();
   {
     const QSignalBlocker quiet(pairs_);
     pairs_->clear();
   }
-  foot_->setProgress(0.0, {});
+  foot_->begin();
   if (!options.images.empty()) work_.find(options);
   refresh();
 }
@@ -348,8 +347,7 @@ void FilesDialog::startImport() {
   options.board_is_certain = board_->certain();
   options.force = replace_->isVisibleTo(this) && replace_->isChecked();
   error_.reset();
-  foot_->clearNote();
-  foot_->setProgress(0.0, {});
+  foot_->begin();
   work_.import(wanted, *board_->target(), options, datasetFolder());
   refresh();
 }

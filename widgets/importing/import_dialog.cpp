@@ -179,12 +179,11 @@ void ImportDialog::openRecording(const QString& path) {
   look_.reset();
   moved_.clear();
   error_.reset();
-  foot_->clearNote();
   form_->clear();
   topics_->setRecording(nullptr);
   time_line_->clear();
   stretches_->setStretches({});
-  foot_->setProgress(0.0, tr("Reading…"));
+  foot_->begin(tr("Reading…"));
   work_.open(path_);
   showWarnings();
   retranslate();
@@ -333,8 +332,7 @@ void ImportDialog::startImport() {
   ImportOptions options = this->options();
   options.scene_times_s = stretches_->sceneTimes();
   error_.reset();
-  foot_->clearNote();
-  foot_->setProgress(0.0, {});
+  foot_->begin();
   work_.import(opened_->recording, look_->survey, *form_->target(), options, form_->folder());
   refresh();
 }

@@ -108,6 +108,11 @@ void ImportFoot::setBusy(bool busy, bool again) {
   retranslate();
 }
 
+void ImportFoot::begin(const QString& text) {
+  note_.clear();
+  setProgress(0.0, text);
+}
+
 void ImportFoot::setProgress(double fraction, const QString& text) {
   progress_->setValue(static_cast<int>(1000 * fraction));
   progress_text_->setText(text);

@@ -37,12 +37,13 @@ class ImportFoot : public QWidget {
   void setProblem(const QString& problem);
   /// That the dataset lies there, but cannot be opened yet for want of intrinsics.
   void noteWithoutCamera(const QString& dataset);
-  void clearNote() { note_.clear(); }
   void setCount(const QString& count);
   /// Whether the import can start.
   void setReady(bool ready);
   /// `again`: where nothing is under way, the button that stops it offers to look again.
   void setBusy(bool busy, bool again = false);
+  /// New work begins: nothing of it is done, and no note is left of the last.
+  void begin(const QString& text = {});
   void setProgress(double fraction, const QString& text);
 
  Q_SIGNALS:

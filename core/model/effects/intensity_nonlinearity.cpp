@@ -7,8 +7,8 @@
 namespace lvcalib {
 namespace {
 
-// What matters is what moves edges: at tenfold contrast and a transition of 3 mm, 0.2 moves them by
-// 0.36 mm, as much as an ink gain that matters.
+// It moves edges: at tenfold contrast and a transition of 3 mm, 0.2 moves them by 0.36 mm, about
+// the ink gain of interest.
 constexpr double kSizeOfInterest = 0.2;
 
 class IntensityNonlinearity final : public CatalogueEffect {

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "model/residuals.h"
 #include "support/synthetic_table.h"
 
 namespace lvcalib {

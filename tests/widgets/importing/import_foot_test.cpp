@@ -35,7 +35,7 @@ TEST_F(ImportFootTest, WhatIsInTheWayComesBeforeTheNote) {
   foot_.setProblem({});
   EXPECT_TRUE(problem().text().startsWith("/data/made is written, without intrinsics"));
   EXPECT_TRUE(problem().isVisible());
-  foot_.clearNote();
+  foot_.begin();
   foot_.setProblem({});
   EXPECT_FALSE(problem().isVisible());
 }
