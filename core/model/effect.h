@@ -112,6 +112,10 @@ class Effect {
   [[nodiscard]] virtual bool is_about_prints() const { return false; }
   /// True for what no data can tell from the extrinsic itself.
   [[nodiscard]] virtual bool is_gauge() const { return false; }
+  /// True if what it does to an intensity or, along the ray, to a range follows the share of white
+  /// under the beam so steeply that it is asked again with what is predicted there once the print
+  /// has moved: rows carry the white (and darkness) of when they were chosen.
+  [[nodiscard]] virtual bool follows_white() const { return false; }
 
   /// Displacement (LiDAR frame, m) of the measured point from the true one.
   virtual void lidar(const BeamPoint& /*beam*/, const MeasurementTable& /*table*/, double /*shape*/,

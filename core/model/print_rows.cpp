@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/print_rows.h"
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace lvcalib {
 namespace {
@@ -14,14 +16,21 @@ void add_growth(double growth_m, PrintChange& change) {
 
 PrintRows::PrintRows(const MeasurementTable& table, const ModelState& state, std::size_t scene,
                      const std::vector<EffectInUse>& in_use, bool growth)
-    : in_use_(in_use),
+    : table_(table),
+      in_use_(in_use),
       columns_(columns_in_use(in_use, table)),
       rows_(table, columns_.list()),
       geometry_(state.camera_from_lidar, state.camera_from_board[scene]),
       rotation_(geometry_.lidar_from_board().rotation.toRotationMatrix()),
       predictor_(*table.print, geometry_.lidar_from_board(), state.levels[scene], state.beam),
+      white_level_(state.levels[scene].white),
+      contrast_(state.levels[scene].white - state.levels[scene].black),
       log_contrast_(log_contrast(state.levels[scene])),
-      growth_(growth) {}
+      darkness_scale_(table.log_contrast),
+      growth_(growth) {
+  for (const EffectColumns& c : columns_.list())
+    if (c.effect->follows_white() && !c.print_contrast) following_.push_back(&c);
+}
 
 void PrintRows::set_pose(const Vector6d& by_lidar_pose, PrintRow& out) const {
   out.by_board_pose = geometry_.by_camera_pose(by_lidar_pose);
@@ -41,6 +50,49 @@ const std::optional<ReturnPrediction>& PrintRows::predicted(const BeamPoint& bea
   }
   if (seen != nullptr) *seen = last_->seen;
   return last_->prediction;
+}
+
+double PrintRows::white_by_intensity(const ReturnPrediction& p) const {
+  const double light = p.intensity_by_levels(0) + p.intensity_by_levels(1);
+  return light * contrast_ != 0.0 ? 1.0 / (light * contrast_) : 0.0;
+}
+
+template <class Ask>
+PrintRows::Followed PrintRows::follow_white(const BeamPoint& beam, double white,
+                                            double UnitChange::*changed, const Ask& ask) {
+  Followed out;
+  if (following_.empty()) return out;
+  // Print of one kind that stays so, to less than any noise, says what it said.
+  constexpr double kPlain = 1e-4;
+  const auto plain = [](double w) { return w < kPlain || w > 1.0 - kPlain; };
+  if (plain(white) && plain(beam.white) && std::abs(white - beam.white) < 0.5) return out;
+  const double middle = std::clamp(white, kPlain, 1.0 - kPlain);
+  const double step = std::min({1e-3, middle, 1.0 - middle});
+  // Hooks read the darkness of a mixture as well.
+  const auto level = [this](double w) {
+    return std::max(white_level_ - contrast_ * (1.0 - std::clamp(w, 0.0, 1.0)),
+                    kLeastShare * white_level_);
+  };
+  BeamPoint asked = beam;
+  const auto answer = [&](const EffectColumns& c, double w, std::vector<double>& by) {
+    asked.white = w;
+    if (darkness_scale_ > 0.0)
+      asked.darkness = beam.darkness + std::log(level(beam.white) / level(w)) / darkness_scale_;
+    by.assign(c.parameters.size(), 0.0);
+    ask(c, asked, std::span(by));
+  };
+  for (const EffectColumns* c : following_) {
+    answer(*c, middle, here_);
+    answer(*c, middle + step, above_);
+    answer(*c, middle - step, below_);
+    for (std::size_t k = 0; k < here_.size(); ++k) {
+      double& unit = changes_[static_cast<std::size_t>(c->first) + k].*changed;
+      out.more += value(*c, k) * (here_[k] - unit);
+      out.by_white += value(*c, k) * (above_[k] - below_[k]) / (2.0 * step);
+      unit = here_[k];
+    }
+  }
+  return out;
 }
 
 std::optional<PrintRow> PrintRows::range(const RangeRow& row, LocalPrint* seen) {
@@ -67,10 +119,23 @@ std::optional<PrintRow> PrintRows::range(const RangeRow& row, LocalPrint* seen) 
   const auto& p = predicted(row.beam, change, row.seen, seen);
   if (!p) return std::nullopt;
   PrintRow out;
-  out.residual = row.measured_m - p->range_m - further;
-  out.range_by_shift = p->range_by_shift;
-  out.range_by_growth = p->range_by_growth;
-  set_pose(p->range_by_pose.transpose(), out);
+  const Eigen::RowVector3d along = geometry_.range_row(row.beam.direction);
+  const Followed followed =
+      follow_white(row.beam, p->white, &UnitChange::range_m,
+                   [&](const EffectColumns& c, const BeamPoint& beam, std::span<double> by) {
+                     RangeRow asked = row;
+                     asked.beam = beam;
+                     c.effect->range(asked, table_, c.shape, by);
+                     own_moves_.assign(by.size(), Eigen::Vector3d::Zero());
+                     c.effect->lidar(beam, table_, c.shape, own_moves_);
+                     for (std::size_t k = 0; k < by.size(); ++k) by[k] += along.dot(own_moves_[k]);
+                   });
+  // Through the white, as the intensity.
+  const double through = followed.by_white * white_by_intensity(*p);
+  out.residual = row.measured_m - p->range_m - further - followed.more;
+  out.range_by_shift = p->range_by_shift + through * p->intensity_by_shift;
+  out.range_by_growth = p->range_by_growth + through * p->intensity_by_growth;
+  set_pose((p->range_by_pose + through * p->intensity_by_pose).transpose(), out);
   return out;
 }
 
@@ -110,15 +175,27 @@ std::optional<PrintRow> PrintRows::reading(const IntensityRow& row, const Bounda
   const auto& p = predicted(row.beam, change, row.reading.seen, seen);
   if (!p) return std::nullopt;
   PrintRow out;
+  const double by_blur = p->intensity_by_blur.dot(blur);
+  const double intensity = p->intensity + by_blur;
+  const double by_intensity = white_by_intensity(*p);
+  const Followed followed =
+      follow_white(row.beam, p->white + by_intensity * by_blur, &UnitChange::log_intensity,
+                   [&](const EffectColumns& c, const BeamPoint& beam, std::span<double> by) {
+                     IntensityRow asked = row;
+                     asked.beam = beam;
+                     c.effect->intensity(asked, table_, c.shape, by);
+                   });
   const double unit = row.reading.unit;
-  const double gain = std::exp(log);
-  const double predicted = gain * (p->intensity + p->intensity_by_blur.dot(blur));
+  const double gain = std::exp(log + followed.more);
+  const double predicted = gain * intensity;
+  // What moves the print changes the intensity, and what the effects make of it.
+  const double print_gain = gain * (1.0 + intensity * followed.by_white * by_intensity);
   out.residual = (row.reading.measured - predicted) / unit;
-  set_pose(gain / unit * p->intensity_by_pose.transpose(), out);
+  set_pose(print_gain / unit * p->intensity_by_pose.transpose(), out);
   out.by_levels = gain / unit * p->intensity_by_levels.transpose();
-  out.print.by_shift = gain / unit * p->intensity_by_shift;
-  out.print.by_growth = gain / unit * p->intensity_by_growth;
-  out.print.by_blur = gain / unit * p->intensity_by_blur;
+  out.print.by_shift = print_gain / unit * p->intensity_by_shift;
+  out.print.by_growth = print_gain / unit * p->intensity_by_growth;
+  out.print.by_blur = print_gain / unit * p->intensity_by_blur;
   out.print.by_log_intensity = predicted / unit;
   return out;
 }

@@ -60,15 +60,36 @@ class PrintRows {
   }
   void set_pose(const Vector6d& by_lidar_pose, PrintRow& out) const;
 
+  // What the effects in use that follow the white under a beam do with the white predicted there,
+  // in place of what they do with the row's: how much more in all, and how that grows with white.
+  struct Followed {
+    double more = 0.0;
+    double by_white = 0.0;
+  };
+  // `ask(columns, beam, by_parameter)` asks an effect's hooks; `changed` is what they tell.
+  template <class Ask>
+  Followed follow_white(const BeamPoint& beam, double white, double UnitChange::*changed,
+                        const Ask& ask);
+
+  // ∂A/∂I of a prediction: what moves the print changes both.
+  [[nodiscard]] double white_by_intensity(const ReturnPrediction& p) const;
+
+  const MeasurementTable& table_;
   const std::vector<EffectInUse>& in_use_;
   EffectColumnsList columns_;
   EffectRows rows_;
   SceneGeometry geometry_;
   Eigen::Matrix3d rotation_;
   BoardPredictor predictor_;
+  double white_level_, contrast_;  // Of the scene: white, and white less black.
   double log_contrast_;
+  double darkness_scale_;                        // The table's ln(white/black).
+  std::vector<const EffectColumns*> following_;  // Of effects that follow white.
   bool growth_;
   std::vector<UnitChange> changes_;
+  // Room for what an effect's hooks write that is asked with another white.
+  std::vector<double> here_, above_, below_;
+  std::vector<Eigen::Vector3d> own_moves_;
   // What was predicted last.
   struct Predicted {
     ReturnKey key;

@@ -178,13 +178,16 @@ void try_shapes(GrowingModel& model, const RunContext& context) {
   }
 }
 
-// What a later effect explains better goes again (never what the user asked for).
-void drop_superfluous(GrowingModel& model, const RunContext& context) {
+// What a later effect explains better goes again (never what the user asked for). Whether any did.
+bool drop_superfluous(GrowingModel& model, const RunContext& context) {
+  bool any = false;
   while (!context.stopped() && model.found() > 1) {
     const auto k = model.search.superfluous();
-    if (!k || model.selections[*k].wanted || *k + 1 == model.selections.size()) return;
+    if (!k || model.selections[*k].wanted || *k + 1 == model.selections.size()) break;
     model.drop(*k);
+    any = true;
   }
+  return any;
 }
 
 // One addition with all that follows from it. False if the model is not to keep it.
@@ -198,6 +201,11 @@ bool step_forward(GrowingModel& model, std::size_t candidate, const DiscoveryOpt
   try_shapes(model, context);
   search.remake();
   search.refine_shapes();
+  // Rows that an effect had chosen may have held it in the model.
+  if (drop_superfluous(model, context)) {
+    search.remake();
+    search.refine_shapes();
+  }
   // A wrong model chooses and weighs rows that suit it, and these lead it further astray.
   return !context.stopped() && !predicts_worse(before, heldout_scenes(search), options.min_gain);
 }

@@ -104,7 +104,7 @@ bool EffectSearch::move_shape(std::size_t k) {
   const double precision = kPrecision * (high - low);
   std::optional<Linearization> elsewhere;
   double shape = before;
-  // The second time between the neighbours of the best.
+  // The second time between the neighbours of the best, which may be where it was.
   for (int round = 0; round < 2; ++round) {
     std::vector<double> tried;
     for (int j = 0; j < kTried; ++j) tried.push_back(low + (high - low) * j / (kTried - 1));
@@ -113,10 +113,17 @@ bool EffectSearch::move_shape(std::size_t k) {
     if (context_.stopped()) return false;
     const auto end = likelihood.end() - 1;
     const auto best = std::max_element(likelihood.begin(), end);
-    if (!(*best > likelihood.back())) return false;
+    const bool better = *best > likelihood.back();
+    const double step = tried[1] - tried[0];
+    if (!better && round == 0) {
+      low = std::max(low, before - step);
+      high = std::min(high, before + step);
+      continue;
+    }
     const auto at = static_cast<std::size_t>(
         std::clamp<std::ptrdiff_t>(best - likelihood.begin(), 1, kTried - 2));
-    const double step = tried[1] - tried[0];
+    // Where it was is best: the vertex beside it, no other peak.
+    if (!better && std::abs(tried[at] - before) > step) return false;
     low = tried[at - 1];
     high = tried[at + 1];
     // The vertex of the parabola through the best and its neighbours.

@@ -97,6 +97,10 @@ class SceneRows::Effects {
     double range_m = 0.0;
   };
   [[nodiscard]] bool any() const { return !in_use_.empty(); }
+  [[nodiscard]] bool follow_white() const {
+    return std::any_of(in_use_.begin(), in_use_.end(),
+                       [](const EffectInUse& use) { return use.effect->follows_white(); });
+  }
   // `near`: the edge that the spot sees, if any.
   Sum of(const SceneGeometry& geometry, BeamPoint beam, double predicted,
          const std::optional<NearEdge>& near, double log_contrast) {
@@ -256,10 +260,15 @@ void SceneRows::collect(const BeamSpread& beam, const SceneNoise& noise, Effects
     } else {
       p = predictor.predict(direction, sum.light, &r.moved, &r.moved);
     }
-    r.range_residual_m = r.measured_m - ranged->range_m - sum.range_m;
     r.white = r.beam.white = p->white;
     r.plain_level = p->intensity;
-    if (has_intensity_) describe_print(*p, beam, kept.intensity(k), std::exp(sum.log_intensity), r);
+    Effects::Sum moved = sum;
+    if (effects.follow_white())
+      moved = effects.of(geometry_, r.beam, p->intensity,
+                         edge_of(*p, view_print(*p, levels_, beam)), log_contrast(levels_));
+    r.range_residual_m = r.measured_m - ranged->range_m - moved.range_m;
+    if (has_intensity_)
+      describe_print(*p, beam, kept.intensity(k), std::exp(moved.log_intensity), r);
     returns_.push_back(r);
   }
   // In the order of the scan, whatever order the file has.

@@ -27,6 +27,8 @@ class IntensityNonlinearity final : public CatalogueEffect {
              .needs = {.circles = true, .intensity = true}},
             {{"g", "1", 1.0, kSizeOfInterest, 2.0}}) {}
 
+  [[nodiscard]] bool follows_white() const override { return true; }
+
   // Levels of plain print tell nothing: every scene has its own, and a power of them is a level
   // too. The middle between two transformed levels is not the transformed middle. With the dark
   // level as unit: I = m where m = (1+c)/2, dI/dg = (c ln c)/2 - m ln m, and dd = dI (σ √2π)/(c-1).

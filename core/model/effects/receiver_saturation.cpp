@@ -49,6 +49,7 @@ class ReceiverSaturation final : public CatalogueEffect {
   }
   [[nodiscard]] std::string shape_name() const override { return "ln Ps, of white at 3 m"; }
   [[nodiscard]] bool is_about_prints() const override { return true; }
+  [[nodiscard]] bool follows_white() const override { return true; }
 
   void lidar(const BeamPoint& beam, const MeasurementTable& table, double shape,
              std::span<Eigen::Vector3d> by) const override {

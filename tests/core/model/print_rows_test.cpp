@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "model/catalogue_effect.h"
 #include "support/synthetic_table.h"
 
 namespace lvcalib {
@@ -112,6 +113,79 @@ TEST_F(PrintRowsTest, DerivativesByTheBoardsPoseAreThoseOfThePrediction) {
       EXPECT_NEAR(intensity.by_board_pose(k), by_intensity, 0.01 * (1.0 + std::abs(by_intensity)));
     }
   }
+}
+
+// The same beside a receiver that clips all white print, whose prediction follows the white under
+// the beam: by the pose, by print that is displaced and by the effect's own values.
+TEST_F(PrintRowsTest, DerivativesBesideASaturatedReceiverAreThoseOfThePrediction) {
+  constexpr double kStep = 1e-6;
+  for (const double jitter_share : {0.0, 0.5}) {
+    for (const double widths : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
+      RangeRow row = beside_edge(widths);
+      row.beam.edge->plain = false;
+      row.beam.jitter_share = jitter_share;
+      row.beam.white = 0.5;  // As though chosen before the print moved.
+      IntensityRow reading{row.beam, Print::kWhite, 0.0, 0.1, {50.0, 100.0, {}}};
+      const double limit = log_power(row.beam.range_m, row.beam.incidence_rad) + std::log(0.6);
+      const auto saturated = [&](double a, double c) {
+        return std::vector<EffectInUse>{
+            {find_effect("receiver_saturation"), limit, Eigen::Vector2d(a, c)}};
+      };
+      const auto in_use = saturated(0.02, 0.8);
+      PrintRows here(made_.table, made_.truth, 0, in_use);
+      const PrintRow range = here.range(row).value();
+      const auto range_by = here.by_parameters();
+      const PrintRow intensity = here.intensity(reading).value();
+      const auto intensity_by = here.by_parameters();
+      const auto expect = [&](double stated, double above, double below) {
+        const double numeric = (below - above) / (2.0 * kStep);
+        EXPECT_NEAR(stated, numeric, 0.01 * (1.0 + std::abs(numeric)))
+            << widths << " widths from the edge, jitter " << jitter_share;
+      };
+      for (Eigen::Index k = 0; k < 6; ++k) {
+        const auto moved_by = [&](double step) {
+          return moved(made_.truth, Vector6d::Zero(), {step * Vector6d::Unit(k)});
+        };
+        const ModelState up = moved_by(kStep);
+        const ModelState down = moved_by(-kStep);
+        PrintRows above(made_.table, up, 0, in_use);
+        PrintRows below(made_.table, down, 0, in_use);
+        expect(range.by_board_pose(k), above.range(row)->residual, below.range(row)->residual);
+        expect(intensity.by_board_pose(k), above.intensity(reading)->residual,
+               below.intensity(reading)->residual);
+      }
+      for (std::size_t k = 0; k < 2; ++k) {
+        const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(static_cast<Eigen::Index>(k));
+        const auto more = saturated(0.02 + step(0), 0.8 + step(1));
+        const auto less = saturated(0.02 - step(0), 0.8 - step(1));
+        PrintRows above(made_.table, made_.truth, 0, more);
+        PrintRows below(made_.table, made_.truth, 0, less);
+        expect(range_by[k].range_m, above.range(row)->residual, below.range(row)->residual);
+        expect(intensity.print.of(intensity_by[k]), above.intensity(reading)->residual,
+               below.intensity(reading)->residual);
+      }
+    }
+  }
+}
+
+// Not with the white that the row had when it was chosen.
+TEST_F(PrintRowsTest, WhatASaturatedReceiverShowsFollowsThePredictedWhite) {
+  RangeRow row = beside_edge(0.5);
+  row.beam.edge->plain = false;
+  const double limit = log_power(row.beam.range_m, row.beam.incidence_rad) + std::log(0.6);
+  const std::vector<EffectInUse> in_use{
+      {find_effect("receiver_saturation"), limit, Eigen::Vector2d(0.02, 0.8)}};
+  const auto intensity = [&](double white) {
+    IntensityRow reading{row.beam, Print::kWhite, 0.0, 0.1, {50.0, 100.0, {}}};
+    reading.beam.white = white;
+    PrintRows rows(made_.table, made_.truth, 0, in_use);
+    return rows.intensity(reading)->residual;
+  };
+  EXPECT_NEAR(intensity(0.3), intensity(0.9), 1e-12);
+  RangeRow other = row;
+  other.beam.white = 0.3;
+  EXPECT_NEAR(residual(row, in_use), residual(other, in_use), 1e-12);
+  EXPECT_GT(std::abs(residual(row, in_use) - residual(row, {})), 1e-3);
 }
 
 }  // namespace
