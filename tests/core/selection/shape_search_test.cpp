@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -9,10 +11,10 @@
 namespace lvcalib {
 namespace {
 
-test::SyntheticTable wave(double period_m, std::uint64_t seed) {
+test::SyntheticTable wave(double period_m, std::uint64_t seed, double amplitude_m = 0.004) {
   test::Disturbance wrong;
-  wrong.range_m = [period_m](const BeamPoint& beam) {
-    return 0.004 * std::sin(2.0 * M_PI * beam.range_m / period_m + 0.4);
+  wrong.range_m = [=](const BeamPoint& beam) {
+    return amplitude_m * std::sin(2.0 * M_PI * beam.range_m / period_m + 0.4);
   };
   test::TableRecipe recipe;
   recipe.seed = seed;
@@ -44,6 +46,28 @@ TEST(ShapeSearch, PeriodMovesOffTheGridToTheTruthWithinItsDeviation) {
   // χ² with 8 degrees of freedom: 2.2 to 17.5 hold 95 %.
   EXPECT_GT(squares, 1.6);
   EXPECT_LT(squares, 20.1);
+}
+
+// Nearer to the truth than either of its neighbours among the places that are tried first, and yet
+// many deviations from it.
+TEST(ShapeSearch, AShapeBetweenThePlacesTriedIsNotLeftThere) {
+  const EffectPtr cyclic = find_effect("range_cyclic");
+  std::vector<double> grid = cyclic->shapes(test::synthetic_table({}).table);
+  std::sort(grid.begin(), grid.end());
+  ASSERT_GE(grid.size(), 5U);
+  const std::size_t middle = grid.size() / 2;
+  const double step = (grid[middle + 1] - grid[middle - 1]) / 8.0;
+  const double truth = grid[middle - 1] + 4.5 * step;
+  const auto made = wave(truth, 1, 0.1);
+  const DiscoveryOptions options;
+  const RunContext context;
+  for (const double away : {-0.3, 0.3}) {
+    EffectSearch search(made.table, made.truth, options, context);
+    search.add(cyclic, truth + away * step);
+    search.refine_shapes();
+    EXPECT_LT(8.0 * search.shape_sigma(0), std::abs(away) * step);
+    EXPECT_NEAR(search.in_use()[0].shape, truth, 4.0 * search.shape_sigma(0));
+  }
 }
 
 TEST(ShapeSearch, EffectsWithoutShapeAreLeftAlone) {
