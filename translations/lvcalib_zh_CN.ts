@@ -2610,8 +2610,8 @@ were saved. Take them up again?</source>
         <translation>场景太少，无法确定外参</translation>
     </message>
     <message>
-        <source>%1 stays hard to test: what matters of it stands %2 σ above zero; to see it: %3</source>
-        <translation>%1仍难以检验：其有意义的大小只比零高 %2 σ；要看到它：%3</translation>
+        <source>%1 stays hard to test: at its size of interest it stands %2 σ above zero; to see it: %3</source>
+        <translation>%1仍难以检验：取关注大小时只比零高 %2 σ；要看到它：%3</translation>
     </message>
     <message>
         <source>no board pose of the grid is in view of both sensors (%1 are in view of the camera)</source>
@@ -3130,8 +3130,8 @@ were saved. Take them up again?</source>
         <translation>要看 %1 是否存在（它可能使外参移动 %2 mm 和 %3 mrad），请拍摄：%4</translation>
     </message>
     <message>
-        <source>To see whether there is %1, take a scene with the board %2; what matters of it would stand %3 σ (now %4 σ)</source>
-        <translation>要看是否存在 %1，请拍摄一个场景，标定板%2；其有意义的大小将达 %3 σ（现为 %4 σ）</translation>
+        <source>To see whether there is %1, take a scene with the board %2; at its size of interest it would stand %3 σ (now %4 σ)</source>
+        <translation>要看是否存在 %1，请拍摄一个场景，标定板%2；取关注大小时将达 %3 σ（现为 %4 σ）</translation>
     </message>
     <message>
         <source>To tell %1 from %2, take a scene with the board %3; the difference would stand %4 σ (now %5 σ)</source>
@@ -9075,8 +9075,8 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
         <translation>拍完该场景后外参旋转的标准差：三轴方差和的平方根，仅计测量噪声</translation>
     </message>
     <message>
-        <source>By how many σ what matters of it stands above zero</source>
-        <translation>其有意义的大小比零高多少个 σ</translation>
+        <source>By how many σ its size of interest stands above zero</source>
+        <translation>其关注大小比零高多少个 σ</translation>
     </message>
     <message>
         <source>the scenes taken</source>

@@ -174,10 +174,10 @@ void warn(const PlanOptions& options, ScenePlan& plan) {
     plan.warnings.push_back(Message("so few scenes do not determine the extrinsic"));
   for (const EffectVisibility& e : last.effects) {
     if (e.sigmas >= options.testable) continue;
-    plan.warnings.push_back(
-        Message("%1 stays hard to test: what matters of it stands %2 σ above zero; to see it: %3",
-                e.id, formatted("%.1f", e.sigmas),
-                Message::listed(find_effect(e.id)->info().discriminating_pose)));
+    plan.warnings.push_back(Message(
+        "%1 stays hard to test: at its size of interest it stands %2 σ above zero; to see it: %3",
+        e.id, formatted("%.1f", e.sigmas),
+        Message::listed(find_effect(e.id)->info().discriminating_pose)));
   }
 }
 

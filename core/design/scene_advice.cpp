@@ -165,8 +165,8 @@ Message make_visible(const Knowledge& known, const std::string& id, const Unseen
                    Message::listed(effect.columns.effect->info().discriminating_pose));
   }
   return Message(
-      "To see whether there is %1, take a scene with the board %2; what matters of it would stand "
-      "%3 σ (now %4 σ)",
+      "To see whether there is %1, take a scene with the board %2; at its size of interest it "
+      "would stand %3 σ (now %4 σ)",
       what, known.poses[pose].description(), formatted("%.1f", after), formatted("%.1f", before));
 }
 

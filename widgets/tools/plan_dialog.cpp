@@ -370,7 +370,7 @@ void PlanDialog::showPlan() {
                                                   "taken: root of the sum over three axes, from "
                                                   "the measurements' noise alone"));
   for (int c = kFirstEffect; c < heads.size(); ++c)
-    table_->headerItem()->setToolTip(c, tr("By how many σ what matters of it stands above zero"));
+    table_->headerItem()->setToolTip(c, tr("By how many σ its size of interest stands above zero"));
   // The places give way to a few effects; what they lose is in their tool tips and below. More
   // effects are scrolled to.
   constexpr int kFew = 3;
