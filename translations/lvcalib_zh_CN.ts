@@ -5185,6 +5185,14 @@ were saved. Take them up again?</source>
         <source>sizes of users&apos; effects: expected 0 &lt; size of interest &lt; believable size</source>
         <translation>用户自定义效应的大小：应满足 0 &lt; 关注大小 &lt; 可信大小</translation>
     </message>
+    <message>
+        <source>scene %1 contradicts the others only without %2</source>
+        <translation>场景 %1 只在没有 %2 时才与其他场景矛盾</translation>
+    </message>
+    <message>
+        <source>%1: use it all the same, and search again</source>
+        <translation>%1：请仍然使用它，并重新搜索</translation>
+    </message>
 </context>
 <context>
     <name>CoreWords</name>

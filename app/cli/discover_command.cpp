@@ -60,6 +60,23 @@ std::string summary_of(const Discovery& discovery, Quality before, const Calibra
          output;
 }
 
+// Says and writes what was found. `said`: what the calibration without effects was warned of.
+Result<std::string> finish(const Discovery& discovery, const CalibrationResult& final,
+                           Quality before, const std::vector<Message>& said,
+                           const DiscoverArguments& options, Session& session) {
+  const std::string& output = options.calibration.output;
+  for (const Message& warning : discovery.warnings) session.warn(warning);
+  // What the model in force is warned of, beyond what the base model was.
+  for (const Message& warning : final.warnings) {
+    if (std::find(said.begin(), said.end(), warning) == said.end()) session.warn(warning);
+  }
+  if (session.context.stopped()) return Error::cancelled();
+  if (Status s = write_discovery(discovery, final, output, options.calibration.frames); !s)
+    return s.error();
+  if (final.quality == Quality::kFailed) return untrusted_result(final, options.calibration);
+  return summary_of(discovery, before, final, output);
+}
+
 Result<std::string> run(const DiscoverArguments& options, Session& session) {
   const std::string& output = options.calibration.output;
   if (Status s = check_wanted(options.with); !s) return s.error();
@@ -68,6 +85,15 @@ Result<std::string> run(const DiscoverArguments& options, Session& session) {
   DiscoveryOptions how = discovery_options(*result);
   how.max_effects = options.max_effects.value_or(how.max_effects);
   how.with = options.with;
+  const Quality before = result->quality;
+  std::vector<Message> said = result->warnings;
+  auto explained = explain_refused_scenes(*result, how, session.context);
+  if (!explained) return explained.error();
+  if (*explained) {
+    for (const Message& why : explanations(**explained))
+      session.warn(Message("%1: it is used, with that in the model", why));
+    return finish((*explained)->discovery, (*explained)->result, before, said, options, session);
+  }
   auto discovery = discover(*result, how, session.context);
   if (!discovery) {
     Error error = discovery.error();
@@ -80,19 +106,8 @@ Result<std::string> run(const DiscoverArguments& options, Session& session) {
     }
     return error;
   }
-  for (const Message& warning : discovery->warnings) session.warn(warning);
-  const Quality before = result->quality;
-  const std::vector<Message> said = result->warnings;
   const CalibrationResult final = with_model(std::move(*result), *discovery);
-  // What the model in force is warned of, beyond what the base model was.
-  for (const Message& warning : final.warnings) {
-    if (std::find(said.begin(), said.end(), warning) == said.end()) session.warn(warning);
-  }
-  if (session.context.stopped()) return Error::cancelled();
-  if (Status s = write_discovery(*discovery, final, output, options.calibration.frames); !s)
-    return s.error();
-  if (final.quality == Quality::kFailed) return untrusted_result(final, options.calibration);
-  return summary_of(*discovery, before, final, output);
+  return finish(*discovery, final, before, said, options, session);
 }
 
 }  // namespace

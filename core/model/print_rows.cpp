@@ -71,7 +71,7 @@ PrintRows::Followed PrintRows::follow_white(const BeamPoint& beam, double white,
   // Hooks read the darkness of a mixture as well.
   const auto level = [this](double w) {
     return std::max(white_level_ - contrast_ * (1.0 - std::clamp(w, 0.0, 1.0)),
-                    kLeastShare * white_level_);
+                    kLeastShare * std::max(white_level_, 1e-12));
   };
   BeamPoint asked = beam;
   const auto answer = [&](const EffectColumns& c, double w, std::vector<double>& by) {

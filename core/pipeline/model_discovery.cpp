@@ -213,6 +213,62 @@ Result<Discovery> discover(const CalibrationResult& result, const DiscoveryOptio
   return out;
 }
 
+std::vector<Message> explanations(const ExplainedScenes& explained) {
+  std::vector<std::string> effects;
+  for (const ModelEffect& effect : explained.result.model) effects.push_back(effect.id);
+  std::vector<Message> out;
+  for (const std::string& scene : explained.scenes) {
+    out.push_back(Message("scene %1 contradicts the others only without %2", scene,
+                          joined(effects_named(effects), ", ")));
+  }
+  return out;
+}
+
+std::vector<Message> advice_on(const ExplainedScenes& explained) {
+  std::vector<Message> out;
+  for (const Message& why : explanations(explained))
+    out.push_back(Message("%1: use it all the same, and search again", why));
+  return out;
+}
+
+Result<std::optional<ExplainedScenes>> explain_refused_scenes(const CalibrationResult& result,
+                                                              const DiscoveryOptions& options,
+                                                              const RunContext& context) {
+  const auto may_agree = [](const SceneResult& scene) {
+    return scene.contradicts && !scene.turned_image && scene.shared_file.empty() &&
+           can_be_insisted_on(scene);
+  };
+  std::optional<ExplainedScenes> out;
+  if (std::none_of(result.scenes.begin(), result.scenes.end(), may_agree)) return out;
+  ExplainedScenes explained;
+  CalibrationResult with = result;
+  std::vector<bool> use;
+  for (SceneResult& scene : with.scenes) {
+    use.push_back(scene.used || may_agree(scene));
+    if (!may_agree(scene)) continue;
+    scene.insisted = true;
+    explained.scenes.push_back(scene.name);
+  }
+  const auto given_up = [&](const Error& error) -> Result<std::optional<ExplainedScenes>> {
+    if (context.stopped() || error.kind == ErrorKind::kCancelled) return Error::cancelled();
+    return out;
+  };
+  auto base = resolve_calibration(std::move(with), use, result.options, context);
+  if (!base) return given_up(base.error());
+  auto discovery = discover(*base, options, context);
+  if (!discovery) return given_up(discovery.error());
+  if (discovery->model.empty()) return out;
+  explained.result = with_model(std::move(*base), *discovery);
+  for (const std::string& name : explained.scenes) {
+    const auto scene = std::find_if(explained.result.scenes.begin(), explained.result.scenes.end(),
+                                    [&](const SceneResult& s) { return s.name == name; });
+    if (!scene->used || !scene->objection.empty()) return out;
+  }
+  explained.discovery = std::move(*discovery);
+  out = std::move(explained);
+  return out;
+}
+
 CalibrationResult with_model(CalibrationResult result, const Discovery& discovery) {
   // With nothing selected the calibration's own extrinsic stands: it rests on every return.
   const bool changed = !discovery.model.empty();

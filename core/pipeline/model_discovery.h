@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "pipeline/calibration.h"
@@ -27,6 +29,26 @@ Result<Discovery> discover(const CalibrationResult& result, const DiscoveryOptio
 /// The calibration with the effects found in its model: extrinsic, covariance, board poses,
 /// residuals.
 CalibrationResult with_model(CalibrationResult result, const Discovery& discovery);
+
+/// A model under which scenes agree that the solve had refused.
+struct ExplainedScenes {
+  Discovery discovery;
+  CalibrationResult result;         ///< With them and the effects found in use.
+  std::vector<std::string> scenes;  ///< Which they are.
+};
+
+/// The sentences "scene C contradicts the others only without range_walk", one for each scene.
+std::vector<Message> explanations(const ExplainedScenes& explained);
+/// What to do about them, where the calibration shown is the one without them.
+std::vector<Message> advice_on(const ExplainedScenes& explained);
+
+/// Scenes that the solve refused for contradicting the others may be those that show best what the
+/// model lacks: a search with them in use. Nothing if no scene was refused so (or the file that is
+/// wrong is known), or they contradict the others still with what was found.
+/// Errors: kCancelled.
+Result<std::optional<ExplainedScenes>> explain_refused_scenes(const CalibrationResult& result,
+                                                              const DiscoveryOptions& options,
+                                                              const RunContext& context);
 
 /// The calibration at the last of a model's steps; `base` itself where that step has no effects.
 /// `steps` begin at `base` and are all made.

@@ -136,6 +136,25 @@ TEST_F(DiscoverCommand, NoSceneIsRefusedForAMissingEffect) {
   for (const auto& scene : result["scenes"]) EXPECT_TRUE(scene["used"].get<bool>());
 }
 
+// The nearest board saturates the receiver, whose ranges there contradict the other scenes: these
+// agree with each other and miss nothing.
+TEST_F(DiscoverCommand, ASceneRefusedForAMissingEffectIsUsedWithIt) {
+  const fs::path dataset = folder_.path() / "saturated";
+  ASSERT_EQ(run_lvcalib({"simulate", "-o", dataset, "--quiet", "--seed", "6", "--scenes", "5",
+                         "--effect", "receiver_saturation=10"})
+                .status,
+            0);
+  const Outcome outcome = discover(dataset);
+  EXPECT_THAT(outcome.err, HasSubstr("scene E is not used: contradicts the other scenes"));
+  EXPECT_THAT(outcome.err,
+              HasSubstr("scene E contradicts the others only without receiver_saturation"));
+  EXPECT_THAT(outcome.out, HasSubstr("missing: receiver_saturation; doubtful -> good"));
+  EXPECT_EQ(effect(json("discovery.json"), "receiver_saturation")["verdict"], "present");
+  const auto result = json("result.json");
+  for (const auto& scene : result["scenes"]) EXPECT_TRUE(scene["used"].get<bool>());
+  EXPECT_THAT(result["warnings"].dump(), Not(HasSubstr("as you decided")));
+}
+
 // An image that is another scene's contradicts for good; the user has the last word.
 TEST_F(DiscoverCommand, UsesAContradictingSceneIfTheUserInsists) {
   const fs::path dataset = folder_.path() / "exchanged";

@@ -114,6 +114,12 @@ json run_rig(const EffectTask& task, const std::filesystem::path& folder) {
     out["error"] = result.error().text();
     return out;
   }
+  // As the command does.
+  const auto explained = explain_refused_scenes(*result, {}, one);
+  if (explained && *explained) {
+    out.update(record_of(task, *rig, *result, (*explained)->discovery));
+    return out;
+  }
   const auto discovery = discover(*result, {}, one);
   if (!discovery) {
     out["error"] = discovery.error().text();

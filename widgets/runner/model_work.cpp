@@ -283,7 +283,7 @@ void ModelWork::find_all() {
 }
 
 void ModelWork::run_find_all() {
-  runner_.start([this, from = step(), decided = place_.in_force()](
+  runner_.start([this, from = step(), source = source_, decided = place_.in_force()](
                     const RunContext& context, const Runner::Post& post) -> Runner::Deliver {
     ModelStepPtr last = from;
     std::vector<ModelDecision> decisions = decided;
@@ -302,6 +302,12 @@ void ModelWork::run_find_all() {
     if (!found) return {};
     auto ranking = rank_effects(**found, context);
     if (!ranking) return {};
+    // Scenes that the solve refused may show best what is missing.
+    const auto explained =
+        explain_refused_scenes(*source, discovery_options(*source), context.silent());
+    if (explained && *explained) {
+      for (Message& one : advice_on(**explained)) ranking->advice.push_back(std::move(one));
+    }
     return [this, key = key_of(decisions), result = std::move(*ranking)] {
       keep_ranking(key, result);
     };

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/moved_board.h"
 #include "support/pose_matchers.h"
 #include "support/simulated_dataset.h"
 #include "support/synthetic_observations.h"
@@ -314,14 +315,7 @@ TEST(Calibrate, ReturnsDecideWhetherAScenesCirclesOrItsBoardIsWrong) {
   expect_within_four_sigma(*kept, data.rig().camera_from_lidar);
 
   CalibrationResult board = *all;
-  SceneResult& scene = board.scenes[2];
-  for (CornerObservation& corner : scene.view->corners) {
-    const Eigen::Vector3d place =
-        se3_exp(moved) * (scene.view->camera_from_board.transform *
-                          Eigen::Vector3d(corner.board_m.x(), corner.board_m.y(), 0.0));
-    corner.pixel = *data.rig().camera.project(place);
-  }
-  refit_view(*scene.view, data.rig().camera, {});
+  test::move_board_in_image(se3_exp(moved), data.rig().camera, board.scenes[2]);
   const auto refused = resolve_calibration(std::move(board), use, {});
   ASSERT_TRUE(refused.ok()) << refused.error().text();
   EXPECT_FALSE(refused->scenes[2].used);

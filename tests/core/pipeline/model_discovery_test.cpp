@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "support/hidden_rig.h"
+#include "support/moved_board.h"
 #include "support/pose_matchers.h"
 #include "support/synthetic_observations.h"
 
@@ -352,6 +353,45 @@ TEST(WithModel, NothingIsObjectedToAnInsistedSceneThatAgreesUnderTheModel) {
     const CalibrationResult after = with_model(before, model_that_moves_nothing());
     EXPECT_EQ(after.scenes[3].objection.empty(), agrees);
   }
+}
+
+// A board that was moved between cloud and image: no effect makes it agree, neither one that is
+// found nor one that is asked for.
+TEST(ExplainRefusedScenes, AMovedBoardStaysRefused) {
+  const test::SimulatedDataset data(test::dataset_options(1, 4));
+  auto all = calibrate(data.open(), {}, {});
+  ASSERT_TRUE(all.ok()) << all.error().text();
+  const Vector6d moved = (Vector6d() << 0.02, 0.01, 0.015, 0.0, 0.0, 0.01).finished();
+  test::move_board_in_image(se3_exp(moved), data.rig().camera, all->scenes[2]);
+  const auto refused = resolve_calibration(std::move(*all), std::vector<bool>(4, true), {});
+  ASSERT_TRUE(refused.ok()) << refused.error().text();
+  ASSERT_TRUE(refused->scenes[2].contradicts);
+  DiscoveryOptions options = discovery_options(*refused);
+  options.advise_scenes = false;
+  for (const bool asked : {false, true}) {
+    if (asked) options.with = {"range_walk"};
+    const auto explained = explain_refused_scenes(*refused, options, {});
+    ASSERT_TRUE(explained.ok()) << explained.error().text();
+    EXPECT_FALSE(explained->has_value());
+  }
+}
+
+TEST(ExplainRefusedScenes, WhereNoneContradictsNothingIsSearched) {
+  CalibrationResult result = four_scenes();
+  const auto explained = explain_refused_scenes(result, {}, {});
+  ASSERT_TRUE(explained.ok());
+  EXPECT_FALSE(explained->has_value());
+  // Nor where it is known that the image is another scene's.
+  result.scenes[2].contradicts = true;
+  result.scenes[2].reason = Message(kContradicts);
+  result.scenes[2].shared_file = Message("image.png is that of scene A");
+  RunContext watched;
+  bool searched = false;
+  watched.progress = [&](const auto&) { searched = true; };
+  const auto known = explain_refused_scenes(result, {}, watched);
+  ASSERT_TRUE(known.ok());
+  EXPECT_FALSE(known->has_value());
+  EXPECT_FALSE(searched);
 }
 
 }  // namespace
