@@ -306,7 +306,9 @@ void ModelWork::run_find_all() {
     const auto explained =
         explain_refused_scenes(*source, discovery_options(*source), context.silent());
     if (explained && *explained) {
-      for (Message& one : advice_on(**explained)) ranking->advice.push_back(std::move(one));
+      std::vector<Message> advice = advice_on(**explained);
+      advice.insert(advice.end(), ranking->advice.begin(), ranking->advice.end());
+      ranking->advice = std::move(advice);
     }
     return [this, key = key_of(decisions), result = std::move(*ranking)] {
       keep_ranking(key, result);
