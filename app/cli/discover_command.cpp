@@ -86,7 +86,7 @@ Result<std::string> run(const DiscoverArguments& options, Session& session) {
   how.max_effects = options.max_effects.value_or(how.max_effects);
   how.with = options.with;
   const Quality before = result->quality;
-  std::vector<Message> said = result->warnings;
+  const std::vector<Message> said = result->warnings;
   auto explained = explain_refused_scenes(*result, how, session.context);
   if (!explained) return explained.error();
   if (*explained) {

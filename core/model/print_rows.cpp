@@ -23,10 +23,8 @@ PrintRows::PrintRows(const MeasurementTable& table, const ModelState& state, std
       geometry_(state.camera_from_lidar, state.camera_from_board[scene]),
       rotation_(geometry_.lidar_from_board().rotation.toRotationMatrix()),
       predictor_(*table.print, geometry_.lidar_from_board(), state.levels[scene], state.beam),
-      white_level_(state.levels[scene].white),
-      contrast_(state.levels[scene].white - state.levels[scene].black),
-      log_contrast_(log_contrast(state.levels[scene])),
-      darkness_scale_(table.log_contrast),
+      levels_(state.levels[scene]),
+      log_contrast_(log_contrast(levels_)),
       growth_(growth) {
   for (const EffectColumns& c : columns_.list())
     if (c.effect->follows_white() && !c.print_contrast) following_.push_back(&c);
@@ -54,7 +52,8 @@ const std::optional<ReturnPrediction>& PrintRows::predicted(const BeamPoint& bea
 
 double PrintRows::white_by_intensity(const ReturnPrediction& p) const {
   const double light = p.intensity_by_levels(0) + p.intensity_by_levels(1);
-  return light * contrast_ != 0.0 ? 1.0 / (light * contrast_) : 0.0;
+  const double by_white = light * (levels_.white - levels_.black);
+  return by_white != 0.0 ? 1.0 / by_white : 0.0;
 }
 
 template <class Ask>
@@ -62,22 +61,25 @@ PrintRows::Followed PrintRows::follow_white(const BeamPoint& beam, double white,
                                             double UnitChange::*changed, const Ask& ask) {
   Followed out;
   if (following_.empty()) return out;
-  // Print of one kind that stays so, to less than any noise, says what it said.
+  // Print of one kind that stays so says what it said: a trace of a ten-thousandth of the contrast
+  // is a hundredth of the noise of the best receivers.
   constexpr double kPlain = 1e-4;
+  // Central differences: off by a millionth of the third derivative.
+  constexpr double kStep = 1e-3;
   const auto plain = [](double w) { return w < kPlain || w > 1.0 - kPlain; };
   if (plain(white) && plain(beam.white) && std::abs(white - beam.white) < 0.5) return out;
   const double middle = std::clamp(white, kPlain, 1.0 - kPlain);
-  const double step = std::min({1e-3, middle, 1.0 - middle});
+  const double step = std::min({kStep, middle, 1.0 - middle});
   // Hooks read the darkness of a mixture as well.
   const auto level = [this](double w) {
-    return std::max(white_level_ - contrast_ * (1.0 - std::clamp(w, 0.0, 1.0)),
-                    kLeastShare * std::max(white_level_, 1e-12));
+    return std::max(std::lerp(levels_.black, levels_.white, std::clamp(w, 0.0, 1.0)),
+                    kLeastShare * std::max(levels_.white, 1e-12));
   };
   BeamPoint asked = beam;
   const auto answer = [&](const EffectColumns& c, double w, std::vector<double>& by) {
     asked.white = w;
-    if (darkness_scale_ > 0.0)
-      asked.darkness = beam.darkness + std::log(level(beam.white) / level(w)) / darkness_scale_;
+    if (table_.log_contrast > 0.0)
+      asked.darkness = beam.darkness + std::log(level(beam.white) / level(w)) / table_.log_contrast;
     by.assign(c.parameters.size(), 0.0);
     ask(c, asked, std::span(by));
   };

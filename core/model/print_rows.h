@@ -81,9 +81,8 @@ class PrintRows {
   SceneGeometry geometry_;
   Eigen::Matrix3d rotation_;
   BoardPredictor predictor_;
-  double white_level_, contrast_;  // Of the scene: white, and white less black.
+  BoardLevels levels_;
   double log_contrast_;
-  double darkness_scale_;                        // The table's ln(white/black).
   std::vector<const EffectColumns*> following_;  // Of effects that follow white.
   bool growth_;
   std::vector<UnitChange> changes_;

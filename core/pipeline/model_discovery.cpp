@@ -58,6 +58,10 @@ void put_poses(const Discovery& discovery, CalibrationResult& result) {
   }
 }
 
+bool refused(const SceneResult& scene) {
+  return scene.contradicts && can_be_insisted_on(scene);
+}
+
 // Scenes that contradict the base model may agree once the effect that it lacks is taken out of
 // their observations. They are no reason to doubt then, though the model was fitted without them;
 // and what the user insisted on is not objected to any more. To agree, the solve that refuses bad
@@ -65,9 +69,6 @@ void put_poses(const Discovery& discovery, CalibrationResult& result) {
 void ask_scenes_again(std::vector<SceneObservations> observations,
                       const std::vector<std::size_t>& index, const Target& target,
                       const ExtrinsicSolution& without, CalibrationResult& result) {
-  const auto refused = [](const SceneResult& scene) {
-    return scene.contradicts && can_be_insisted_on(scene);
-  };
   const auto insisted = [&](const SceneResult& scene) {
     return scene.used && !scene.objection.empty() &&
            !(target.has_circles() && scene.refinement->nodes.empty());
@@ -235,8 +236,7 @@ Result<std::optional<ExplainedScenes>> explain_refused_scenes(const CalibrationR
                                                               const DiscoveryOptions& options,
                                                               const RunContext& context) {
   const auto may_agree = [](const SceneResult& scene) {
-    return scene.contradicts && !scene.turned_image && scene.shared_file.empty() &&
-           can_be_insisted_on(scene);
+    return refused(scene) && !scene.turned_image && scene.shared_file.empty();
   };
   std::optional<ExplainedScenes> out;
   if (std::none_of(result.scenes.begin(), result.scenes.end(), may_agree)) return out;

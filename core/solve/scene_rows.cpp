@@ -262,13 +262,15 @@ void SceneRows::collect(const BeamSpread& beam, const SceneNoise& noise, Effects
     }
     r.white = r.beam.white = p->white;
     r.plain_level = p->intensity;
-    Effects::Sum moved = sum;
+    // A range's part hardly changes beside its noise.
+    r.range_residual_m = r.measured_m - ranged->range_m - sum.range_m;
+    double log_intensity = sum.log_intensity;
     if (effects.follow_white())
-      moved = effects.of(geometry_, r.beam, p->intensity,
-                         edge_of(*p, view_print(*p, levels_, beam)), log_contrast(levels_));
-    r.range_residual_m = r.measured_m - ranged->range_m - moved.range_m;
-    if (has_intensity_)
-      describe_print(*p, beam, kept.intensity(k), std::exp(moved.log_intensity), r);
+      log_intensity = effects
+                          .of(geometry_, r.beam, p->intensity,
+                              edge_of(*p, view_print(*p, levels_, beam)), log_contrast(levels_))
+                          .log_intensity;
+    if (has_intensity_) describe_print(*p, beam, kept.intensity(k), std::exp(log_intensity), r);
     returns_.push_back(r);
   }
   // In the order of the scan, whatever order the file has.

@@ -28,6 +28,14 @@ class DiscoverCommand : public ::testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_lvcalib(arguments);
   }
+  [[nodiscard]] Outcome discover_simulated(const char* seed, const char* scenes,
+                                           const char* effect) const {
+    const fs::path dataset = folder_.path() / "simulated";
+    const Outcome made = run_lvcalib({"simulate", "-o", dataset, "--quiet", "--seed", seed,
+                                      "--scenes", scenes, "--effect", effect});
+    EXPECT_EQ(made.status, 0) << made.err;
+    return discover(dataset);
+  }
   [[nodiscard]] nlohmann::json json(const char* name) const {
     return nlohmann::json::parse(read_file(out() / name));
   }
@@ -124,12 +132,7 @@ TEST_F(DiscoverCommand, TheUsersToleranceDecidesWhatMatters) {
 // Dark print reads 10 mm too far, and circles and planes of one scene contradict the others for it;
 // by every return all of them miss alike.
 TEST_F(DiscoverCommand, NoSceneIsRefusedForAMissingEffect) {
-  const fs::path dataset = folder_.path() / "walk";
-  ASSERT_EQ(run_lvcalib({"simulate", "-o", dataset, "--quiet", "--seed", "2", "--scenes", "4",
-                         "--effect", "range_walk=10"})
-                .status,
-            0);
-  const Outcome outcome = discover(dataset);
+  const Outcome outcome = discover_simulated("2", "4", "range_walk=10");
   EXPECT_THAT(outcome.err, Not(HasSubstr("is not used")));
   EXPECT_THAT(outcome.out, HasSubstr("doubtful -> good"));
   const auto result = json("result.json");
@@ -139,12 +142,7 @@ TEST_F(DiscoverCommand, NoSceneIsRefusedForAMissingEffect) {
 // The nearest board saturates the receiver, whose ranges there contradict the other scenes: these
 // agree with each other and miss nothing.
 TEST_F(DiscoverCommand, ASceneRefusedForAMissingEffectIsUsedWithIt) {
-  const fs::path dataset = folder_.path() / "saturated";
-  ASSERT_EQ(run_lvcalib({"simulate", "-o", dataset, "--quiet", "--seed", "6", "--scenes", "5",
-                         "--effect", "receiver_saturation=10"})
-                .status,
-            0);
-  const Outcome outcome = discover(dataset);
+  const Outcome outcome = discover_simulated("6", "5", "receiver_saturation=10");
   EXPECT_THAT(outcome.err, HasSubstr("scene E is not used: contradicts the other scenes"));
   EXPECT_THAT(outcome.err,
               HasSubstr("scene E contradicts the others only without receiver_saturation"));
