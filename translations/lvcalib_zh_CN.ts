@@ -5186,12 +5186,8 @@ were saved. Take them up again?</source>
         <translation>用户自定义效应的大小：应满足 0 &lt; 关注大小 &lt; 可信大小</translation>
     </message>
     <message>
-        <source>scene %1 contradicts the others only without %2</source>
-        <translation>场景 %1 只在没有 %2 时才与其他场景矛盾</translation>
-    </message>
-    <message>
-        <source>%1: use it all the same, and search again</source>
-        <translation>%1：请仍然使用它，并重新搜索</translation>
+        <source>scene %1 contradicts the others only without %2: it is used, with that in the model</source>
+        <translation>场景 %1 只在没有 %2 时才与其他场景矛盾：已使用它，并将其纳入模型</translation>
     </message>
 </context>
 <context>

@@ -90,8 +90,7 @@ Result<std::string> run(const DiscoverArguments& options, Session& session) {
   auto explained = explain_refused_scenes(*result, how, session.context);
   if (!explained) return explained.error();
   if (*explained) {
-    for (const Message& why : explanations(**explained))
-      session.warn(Message("%1: it is used, with that in the model", why));
+    for (const Message& why : explanations(**explained)) session.warn(why);
     return finish((*explained)->discovery, (*explained)->result, before, said, options, session);
   }
   auto discovery = discover(*result, how, session.context);

@@ -219,16 +219,11 @@ std::vector<Message> explanations(const ExplainedScenes& explained) {
   for (const ModelEffect& effect : explained.result.model) effects.push_back(effect.id);
   std::vector<Message> out;
   for (const std::string& scene : explained.scenes) {
-    out.push_back(Message("scene %1 contradicts the others only without %2", scene,
-                          joined(effects_named(effects), ", ")));
+    out.push_back(
+        Message("scene %1 contradicts the others only without %2: it is used, with that in "
+                "the model",
+                scene, joined(effects_named(effects), ", ")));
   }
-  return out;
-}
-
-std::vector<Message> advice_on(const ExplainedScenes& explained) {
-  std::vector<Message> out;
-  for (const Message& why : explanations(explained))
-    out.push_back(Message("%1: use it all the same, and search again", why));
   return out;
 }
 

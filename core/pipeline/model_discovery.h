@@ -37,10 +37,9 @@ struct ExplainedScenes {
   std::vector<std::string> scenes;  ///< Which they are.
 };
 
-/// The sentences "scene C contradicts the others only without range_walk", one for each scene.
+/// The sentences "scene C contradicts the others only without range_walk: it is used, with that in
+/// the model", one for each scene.
 std::vector<Message> explanations(const ExplainedScenes& explained);
-/// What to do about them, where the calibration shown is the one without them.
-std::vector<Message> advice_on(const ExplainedScenes& explained);
 
 /// Scenes that the solve refused for contradicting the others may be those that show best what the
 /// model lacks: a search with them in use. Nothing if no scene was refused so (or the file that is

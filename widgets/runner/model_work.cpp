@@ -58,6 +58,7 @@ ModelWork::ModelWork(Workspace& workspace, QObject* parent)
     if (workspace_.result() == source_) return;
     forget();
     start();
+    search_with_.clear();
   });
   connect(&runner_, &Runner::progressed, this,
           [this](quint64, const QString& stage, double fraction, const QString& text) {
@@ -90,6 +91,7 @@ std::shared_ptr<const Discovery> ModelWork::discovery() const {
 }
 
 void ModelWork::take_workspace() {
+  search_with_.clear();
   place_ = {workspace_.model(), workspace_.model().size()};
   forget();
 }
@@ -188,7 +190,12 @@ void ModelWork::run(Place goal, const DescribedCommand::Words& words) {
                 : source_ == source ? tr("Model: going to another step")
                                     : tr("Model: fitted again, as the calibration is another"));
   source_ = source;
-  runner_.start([this, source, goal, words, made = made_](
+  const bool search =
+      !search_with_.empty() &&
+      std::all_of(search_with_.begin(), search_with_.end(), [&](const QString& scene) {
+        return decision_of(workspace_.decisions(), scene.toStdString()).insist;
+      });
+  runner_.start([this, source, goal, words, search, made = made_](
                     const RunContext& context, const Runner::Post& post) -> Runner::Deliver {
     const auto fail = [this](const Error& error) -> Runner::Deliver {
       if (error.kind == ErrorKind::kCancelled) return {};
@@ -234,6 +241,7 @@ void ModelWork::run(Place goal, const DescribedCommand::Words& words) {
         push(goal, words);
       }
     });
+    if (search) return search_all(steps.back(), wanted, context, post);
     auto ranking = rank_effects(*steps.back(), context);
     if (!ranking) return fail(ranking.error());
     return [this, key = key_of(wanted), found = std::move(*ranking)] { keep_ranking(key, found); };
@@ -279,42 +287,50 @@ void ModelWork::hold(std::size_t k, const std::optional<Eigen::VectorXd>& values
 }
 
 void ModelWork::find_all() {
-  if (step()) run_find_all();
-}
-
-void ModelWork::run_find_all() {
+  if (!step()) return;
+  search_with_.clear();
   runner_.start([this, from = step(), source = source_, decided = place_.in_force()](
                     const RunContext& context, const Runner::Post& post) -> Runner::Deliver {
-    ModelStepPtr last = from;
-    std::vector<ModelDecision> decisions = decided;
-    const auto found = lvcalib::find_all(
-        from,
-        [&](const ModelStepPtr& next) {
-          for (ModelDecision& d : decisions_between(*last, *next))
-            decisions.push_back(std::move(d));
-          last = next;
-          post([this, next, decisions] {
-            keep(decisions, next);
-            push({decisions, decisions.size()}, words_of(QT_TR_NOOP("add %1"), next->changed));
-          });
-        },
-        context);
-    if (!found) return {};
-    auto ranking = rank_effects(**found, context);
-    if (!ranking) return {};
     // Scenes that the solve refused may show best what is missing.
-    const auto explained =
-        explain_refused_scenes(*source, discovery_options(*source), context.silent());
-    if (explained && *explained) {
-      std::vector<Message> advice = advice_on(**explained);
-      advice.insert(advice.end(), ranking->advice.begin(), ranking->advice.end());
-      ranking->advice = std::move(advice);
+    DiscoveryOptions options = discovery_options(*source);
+    for (const ModelTerm& term : from->terms) {
+      if (term.on) options.with.push_back(term.spec);
     }
-    return [this, key = key_of(decisions), result = std::move(*ranking)] {
-      keep_ranking(key, result);
+    const auto explained = explain_refused_scenes(*source, options, context);
+    if (!explained) return {};
+    if (!*explained) return search_all(from, decided, context, post);
+    QStringList scenes;
+    for (const std::string& scene : (*explained)->scenes) scenes << QString::fromStdString(scene);
+    return [this, scenes, why = explanations(**explained)] {
+      for (const Message& line : why) Q_EMIT logged(core_text(line));
+      search_with_ = scenes;
+      workspace_.set_insist(scenes, true);
     };
   });
   Q_EMIT started();
+}
+
+// Finds all from a step that these decisions made; in the worker's thread.
+Runner::Deliver ModelWork::search_all(const ModelStepPtr& from,
+                                      std::vector<ModelDecision> decisions,
+                                      const RunContext& context, const Runner::Post& post) {
+  ModelStepPtr last = from;
+  const auto found = lvcalib::find_all(
+      from,
+      [&](const ModelStepPtr& next) {
+        for (ModelDecision& d : decisions_between(*last, *next)) decisions.push_back(std::move(d));
+        last = next;
+        post([this, next, decisions] {
+          keep(decisions, next);
+          push({decisions, decisions.size()}, words_of(QT_TR_NOOP("add %1"), next->changed));
+        });
+      },
+      context);
+  if (!found) return {};
+  auto ranking = rank_effects(**found, context);
+  if (!ranking) return {};
+  return
+      [this, key = key_of(decisions), result = std::move(*ranking)] { keep_ranking(key, result); };
 }
 
 void ModelWork::go_to(std::size_t step) {

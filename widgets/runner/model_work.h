@@ -3,6 +3,7 @@
 
 #include <QObject>
 #include <QString>
+#include <QStringList>
 #include <map>
 #include <memory>
 #include <optional>
@@ -64,7 +65,9 @@ class ModelWork : public QObject {
   void set_on(std::size_t k, bool on);
   /// Values in SI; none: fitted again.
   void hold(std::size_t k, const std::optional<Eigen::VectorXd>& values);
-  /// Adds what held-out scenes speak for, until nothing is missing.
+  /// Adds what held-out scenes speak for, until nothing is missing. Scenes that were refused for
+  /// contradicting the others are used all the same (a decision as the user's) if they agree with
+  /// what is found with them: the search follows once the workspace has calibrated with them.
   void find_all();
   /// Goes to a step (0: the base model).
   void go_to(std::size_t step);
@@ -97,7 +100,8 @@ class ModelWork : public QObject {
   void forget();
   void decide(ModelDecision decision, const char* text);
   void run(Place goal, const DescribedCommand::Words& words);
-  void run_find_all();
+  Runner::Deliver search_all(const ModelStepPtr& from, std::vector<ModelDecision> decisions,
+                             const RunContext& context, const Runner::Post& post);
   void arrive(const Place& place);
   void push(Place place, const DescribedCommand::Words& words);
   void keep(const std::vector<ModelDecision>& decisions, const ModelStepPtr& step);
@@ -115,6 +119,8 @@ class ModelWork : public QObject {
   // What a run made of its last step, for the place where it arrives.
   std::pair<Key, std::shared_ptr<const CalibrationResult>> fresh_;
   Place place_;
+  // The next calibration, with these refused scenes in use, is searched to the end.
+  QStringList search_with_;
   Runner results_;  // Makes the calibration with the model.
   Runner runner_;   // Last: abandoned before what it uses goes.
 };

@@ -8,8 +8,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/model_discovery.h"
 #include "runner/demo.h"
 #include "runner/workspace.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets::model_work_test {
 namespace {
@@ -267,6 +269,58 @@ TEST_F(Work, WhatCannotBeAddedIsSaid) {
   ASSERT_TRUE(idle());
   EXPECT_FALSE(message.isEmpty());
   EXPECT_TRUE(specs().empty());
+}
+
+// As the search of the command line: the nearest board saturates the receiver, so its scene is
+// refused, and shows best what is missing.
+TEST(ModelWork, FindsAllWithASceneThatIsRefusedForWhatIsMissing) {
+  QTemporaryDir folder;
+  simulation::SimulationOptions options;
+  options.seed = 6;
+  options.scenes = 5;
+  options.lidar.points = 120'000;
+  options.effects["receiver_saturation"] = 10.0;
+  Workspace workspace(folder.path());
+  workspace.open_demo(options);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return workspace.is_open() && !workspace.busy(); }, 240'000));
+  ModelWork work(workspace);
+  QStringList logged;
+  QObject::connect(&work, &ModelWork::logged, &work, [&](const QString& line) { logged << line; });
+  const auto settled = [&] {
+    return QTest::qWaitFor(
+        [&] {
+          return workspace.up_to_date() && !workspace.busy() && !work.busy() && work.ranking() &&
+                 !work.behind();
+        },
+        240'000);
+  };
+  workspace.run();
+  ASSERT_TRUE(settled());
+  ASSERT_FALSE(workspace.result()->scenes[4].used);
+  DiscoveryOptions how = discovery_options(*workspace.result());
+  how.advise_scenes = false;
+  const auto expected = explain_refused_scenes(*workspace.result(), how, {});
+  ASSERT_TRUE(expected.ok() && *expected);
+  const CalibrationResult& explained = (*expected)->result;
+  work.find_all();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return workspace.busy(); }, 240'000));
+  ASSERT_TRUE(settled());
+  EXPECT_THAT(logged, ::testing::Contains(core_text(explanations(**expected).front())));
+  ASSERT_NE(work.result(), nullptr);
+  const CalibrationResult& found = *work.result();
+  ASSERT_EQ(found.model.size(), explained.model.size());
+  for (std::size_t k = 0; k < found.model.size(); ++k)
+    EXPECT_EQ(found.model[k].id, explained.model[k].id);
+  EXPECT_EQ(found.quality, explained.quality);
+  EXPECT_TRUE(found.scenes[4].used);
+  EXPECT_TRUE(found.scenes[4].objection.empty());
+  EXPECT_EQ(found.extrinsic.camera_from_lidar.transform.matrix(),
+            explained.extrinsic.camera_from_lidar.transform.matrix());
+  // The decision about the scene is the user's to take back, like the effects.
+  EXPECT_TRUE(decision_of(workspace.decisions(), "E").insist);
+  while (workspace.undo_stack().canUndo()) workspace.undo_stack().undo();
+  EXPECT_FALSE(decision_of(workspace.decisions(), "E").insist);
+  EXPECT_TRUE(workspace.model().empty());
 }
 
 }  // namespace
