@@ -101,6 +101,19 @@ class Curve {
   Basis basis_;
 };
 
+/// One number for all rows.
+class Constant {
+ public:
+  static constexpr bool kLocal = false;
+  static constexpr std::array kPriorRows{1.0};
+  [[nodiscard]] static int size() { return 1; }
+  static void evaluate(std::size_t, BasisRow& out) {
+    out.count = out.run = 1;
+    out.value[0] = 1.0;
+    out.column[0] = 0;
+  }
+};
+
 /// Products of splines over two covariates.
 class Surface {
  public:

@@ -303,9 +303,17 @@ StructureScore score_of(const Covariate& covariate, const OwnRows& rows) {
   return fine.score > out.score ? fine : out;
 }
 
+// What one number explains. What a place shows of it is everywhere.
+double score_everywhere(const OwnRows& rows) {
+  StructureScore out{rows.channel(), {}};
+  score(Constant(), rows, out);
+  return std::max(0.0, out.score);
+}
+
 struct ScannedChannel {
   std::optional<OwnRows> rows;
   std::vector<Covariate> covariates;
+  double everywhere = 0.0;
 };
 
 // What is scored: a curve over x, or a surface where there is a y.
@@ -334,17 +342,18 @@ bool StructureScore::is_at_a_place() const {
   return covariate == "azimuth" || covariate == "board x" || covariate == "board y";
 }
 
-double place_score(const StructureScore& place, const MeasurementTable& table,
-                   ChannelResiduals residuals) {
+StructureScore place_score(const StructureScore& place, const MeasurementTable& table,
+                           ChannelResiduals residuals) {
+  StructureScore none{residuals.channel, place.covariate};
   const std::vector<Covariate> covariates = covariates_of(table, residuals.channel, residuals);
   const Covariate* x = find_in(covariates, place.covariate);
-  if (x == nullptr) return 0.0;
+  const bool surface = !place.second_covariate.empty();
+  const Covariate* y = surface ? find_in(covariates, place.second_covariate) : nullptr;
+  if (x == nullptr || (surface && y == nullptr)) return none;
   const OwnRows rows(std::move(residuals), static_cast<int>(table.scenes.size()));
-  if (place.second_covariate.empty()) return score_of(*x, rows).score;
-  const Covariate* y = find_in(covariates, place.second_covariate);
-  if (y == nullptr) return 0.0;
-  const auto found = surface_score(*x, *y, rows);
-  return found ? found->score : 0.0;
+  StructureScore out = surface ? surface_score(*x, *y, rows).value_or(none) : score_of(*x, rows);
+  out.everywhere = score_everywhere(rows);
+  return out;
 }
 
 StructureScan scan_structure(const MeasurementTable& table, EveryResidual residuals,
@@ -355,6 +364,7 @@ StructureScan scan_structure(const MeasurementTable& table, EveryResidual residu
     if (r.values.empty() || context.stopped()) return;
     channels[k].covariates = covariates_of(table, r.channel, r);
     channels[k].rows.emplace(std::move(r), static_cast<int>(table.scenes.size()));
+    channels[k].everywhere = score_everywhere(*channels[k].rows);
   });
   StructureScan out;
   std::vector<Asked> asked;
@@ -378,6 +388,10 @@ StructureScan scan_structure(const MeasurementTable& table, EveryResidual residu
   });
   for (const auto& surface : surfaces) {
     if (surface && says_more(*surface, out.curves)) out.places.push_back(*surface);
+  }
+  for (auto* scores : {&out.curves, &out.places}) {
+    for (StructureScore& one : *scores)
+      one.everywhere = channels[static_cast<std::size_t>(one.channel)].everywhere;
   }
   sort_best_first(out.curves);
   sort_best_first(out.places);

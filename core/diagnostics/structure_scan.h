@@ -29,9 +29,13 @@ struct StructureScore {
   bool matters = false;
   /// Of a surface over two covariates; empty of a curve.
   std::string second_covariate = {};
+  /// What one number for all rows of the channel explains of it: over every covariate alike.
+  double everywhere = 0.0;
   /// Whether it is at a place: on the board, in the field of view, in the image. Of curves those
   /// over azimuth and along the board; over elevation also what differs from line to line shows.
   [[nodiscard]] bool is_at_a_place() const;
+  /// What is not everywhere alike.
+  [[nodiscard]] double local_score() const { return score - everywhere; }
   /// One name, or the two of a surface.
   [[nodiscard]] std::vector<std::string> covariates() const {
     if (second_covariate.empty()) return {covariate};
@@ -58,9 +62,9 @@ StructureScan scan_structure(const MeasurementTable& table, const ModelState& st
                              const std::vector<EffectInUse>& in_use, const RunContext& context);
 
 /// What a curve or surface of the kind of `place` (one of a StructureScan) predicts of other
-/// residuals of its channel: the share of held-out variance, not above zero if nothing.
-double place_score(const StructureScore& place, const MeasurementTable& table,
-                   ChannelResiduals residuals);
+/// residuals of its channel, best of one curve or surface.
+StructureScore place_score(const StructureScore& place, const MeasurementTable& table,
+                           ChannelResiduals residuals);
 
 /// Orders scores by the share that they explain, those that are equal as they were.
 void sort_best_first(std::vector<StructureScore>& scores);

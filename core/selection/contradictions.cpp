@@ -127,7 +127,7 @@ bool EffectSearch::leaves_a_place(const Candidate& candidate,
   // Its cause leaves nothing but noise of it, a stranger nearly all: halfway between.
   constexpr double kMost = 0.5;
   std::erase_if(places, [&](const StructureScore& place) {
-    return place.score < candidate.heldout_gain[static_cast<std::size_t>(place.channel)];
+    return place.local_score() < candidate.heldout_gain[static_cast<std::size_t>(place.channel)];
   });
   if (places.empty()) return false;
   const EffectColumns& tried = linear_.columns.list()[candidate.columns];
@@ -137,7 +137,8 @@ bool EffectSearch::leaves_a_place(const Candidate& candidate,
     if (context_.stopped()) return false;
     ChannelResiduals left = residuals_and_nuisance(trial.table(), trial.state(), trial.model(),
                                                    place.channel, context_);
-    return place_score(place, trial.table(), std::move(left)) > kMost * place.score;
+    return place_score(place, trial.table(), std::move(left)).local_score() >
+           kMost * place.local_score();
   });
 }
 

@@ -664,11 +664,20 @@ std::optional<std::size_t> EffectSearch::superfluous() {
   if (context_.stopped()) return std::nullopt;
   const ColumnSubset all = own_subset(linear.columns);
   const Reference with = make_reference(linear, all, variances_, how(0));
+  Eigen::Index next = 6;
   for (std::size_t k = 0; k < in_use_.size(); ++k) {
+    const Eigen::VectorXd& values = in_use_[k].values;
+    const Eigen::Index first = std::exchange(next, next + values.size());
+    const Eigen::MatrixXd covariance =
+        with.fit.covariance.block(first, first, values.size(), values.size());
+    const double squares = values.dot(covariance.completeOrthogonalDecomposition().solve(values));
+    const double tried = static_cast<double>(std::max<std::size_t>(candidates_.size(), 1));
+    if (f_test(squares, values.size(), table().scenes.size()) * tried > options_->false_alarm)
+      return k;
     // Without the effect its rows still hold the values in use: the candidate's increment undoes
     // them, so that the test of "increment equals minus the value" is that of the removal.
     ColumnSubset frozen = all;
-    hold_at_zero(linear.columns.list()[k], in_use_[k].values, frozen);
+    hold_at_zero(linear.columns.list()[k], values, frozen);
     const Reference without = make_reference(linear, frozen, variances_, how());
     std::vector<double> gain;
     for (std::size_t s = 0; s < with.density.size(); ++s)

@@ -119,8 +119,9 @@ class EffectSearch {
   /// What leaving an effect out does to the extrinsic, at what the data say of it beside the model;
   /// nothing if they say nothing.
   [[nodiscard]] std::optional<ExtrinsicMove> move_without(const EffectPtr& effect) const;
-  /// An effect in use whose removal the held-out scenes do not notice: the mean loss over scenes is
-  /// within its standard error.
+  /// An effect in use that would not be let in any more, beside the others: chance reaches its size
+  /// among as many candidates as were tried, or held-out scenes do not notice its removal (the mean
+  /// loss over scenes is within its standard error).
   [[nodiscard]] std::optional<std::size_t> superfluous();
 
   /// Shape numbers of an effect; of very many the few that the range residuals speak for.

@@ -158,12 +158,14 @@ void try_swaps(GrowingModel& model, int left, const RunContext& context) {
   }
 }
 
-// An effect's shape number was chosen while the last one was missing: another of its shapes takes
-// its place if it predicts held-out scenes better by more than one standard error over scenes,
-// after a full refit. Refining moves a shape between its neighbours alone.
-void try_shapes(GrowingModel& model, const RunContext& context) {
+// An effect's shape number was chosen while the last one was missing, or among rows that did not
+// know of the effect: another of its shapes takes its place if it predicts held-out scenes better
+// by more than one standard error over scenes, after a full refit. Refining moves a shape between
+// its neighbours alone. Of the first `count` effects; whether any changed.
+bool try_shapes(GrowingModel& model, std::size_t count, const RunContext& context) {
   auto& [search, selections] = model;
-  for (std::size_t k = 0; k + 1 < selections.size(); ++k) {
+  bool any = false;
+  for (std::size_t k = 0; k < count; ++k) {
     const EffectPtr effect = search.in_use()[k].effect;
     if (selections[k].wanted || effect->shapes(search.table()).size() < 2) continue;
     for (const EffectSearch::Swap& next : search.swaps(k, {effect})) {
@@ -171,23 +173,33 @@ void try_shapes(GrowingModel& model, const RunContext& context) {
       EffectSearch trial(search);
       trial.replace(k, next);
       trial.refine_shape(k);
-      if (context.stopped()) return;
-      if (is_gain(difference(trial, search))) search = trial;
+      if (context.stopped()) return false;
+      if (!is_gain(difference(trial, search))) continue;
+      search = trial;
+      any = true;
     }
-    if (context.stopped()) return;
-  }
-}
-
-// What a later effect explains better goes again (never what the user asked for). Whether any did.
-bool drop_superfluous(GrowingModel& model, const RunContext& context) {
-  bool any = false;
-  while (!context.stopped() && model.found() > 1) {
-    const auto k = model.search.superfluous();
-    if (!k || model.selections[*k].wanted || *k + 1 == model.selections.size()) break;
-    model.drop(*k);
-    any = true;
+    if (context.stopped()) return false;
   }
   return any;
+}
+
+struct Superfluous {
+  bool dropped = false;  // Some were, and are out of the model.
+  bool newest = false;   // The last addition is: whether it stays is for others to decide.
+};
+
+// What a later effect explains better goes again (never what the user asked for).
+Superfluous drop_superfluous(GrowingModel& model, const RunContext& context) {
+  Superfluous out;
+  while (!context.stopped()) {
+    const auto k = model.search.superfluous();
+    if (!k || model.selections[*k].wanted) break;
+    out.newest = *k + 1 == model.selections.size();
+    if (out.newest) break;
+    model.drop(*k);
+    out.dropped = true;
+  }
+  return out;
 }
 
 // One addition with all that follows from it. False if the model is not to keep it.
@@ -198,14 +210,19 @@ bool step_forward(GrowingModel& model, std::size_t candidate, const DiscoveryOpt
   if (!add_candidate(model, candidate, before, options, context)) return false;
   try_swaps(model, options.swaps, context);
   drop_superfluous(model, context);
-  try_shapes(model, context);
-  search.remake();
-  search.refine_shapes();
-  // Rows that an effect had chosen may have held it in the model.
-  if (drop_superfluous(model, context)) {
+  try_shapes(model, model.selections.size() - 1, context);
+  // Rows that an effect had chosen may have held it in the model, the newest too, or at a shape.
+  // One round is the rule, two are seen; should two shapes take turns, that ends.
+  constexpr int kRounds = 5;
+  Superfluous left;
+  bool moved = true;
+  for (int round = 0; moved && round < kRounds && !context.stopped(); ++round) {
     search.remake();
     search.refine_shapes();
+    left = drop_superfluous(model, context);
+    moved = try_shapes(model, model.selections.size(), context) || left.dropped;
   }
+  if (left.newest) return false;
   // A wrong model chooses and weighs rows that suit it, and these lead it further astray.
   return !context.stopped() && !predicts_worse(before, heldout_scenes(search), options.min_gain);
 }

@@ -148,6 +148,34 @@ TEST(StructurePlaces, ABumpOnTheBoardIsSeenOverBothAxesTogether) {
   EXPECT_THAT(notable.front().covariates(), ElementsAre("board x", "board y"));
 }
 
+// Edges that lie off everywhere do so over every covariate, and at no place more than elsewhere.
+TEST(StructurePlaces, WhatIsEverywhereIsAtNoPlace) {
+  test::Disturbance wrong;
+  wrong.edge_m = [](const BoundaryRow&) { return 0.001; };
+  wrong.range_m = [](const BeamPoint& beam) { return 0.008 * std::sin(20.0 * beam.board_m.y()); };
+  test::TableRecipe recipe;
+  recipe.edge_sigma_m = 0.0001;  // Levels take most of it.
+  const auto made = test::synthetic_table(recipe, wrong);
+  int seen = 0;
+  for (const StructureScore& s : scan_structure(made.table, made.truth, {}, {}).curves) {
+    if (s.covariate != "board y") continue;
+    ++seen;
+    ASSERT_TRUE(s.is_at_a_place());
+    const StructureScore again = place_score(
+        s, made.table, residuals_and_nuisance(made.table, made.truth, {}, s.channel, {}));
+    EXPECT_DOUBLE_EQ(again.score, s.score);
+    EXPECT_DOUBLE_EQ(again.everywhere, s.everywhere);
+    if (s.channel == Channel::kBoundary) {
+      EXPECT_GT(s.score, 0.3);
+      EXPECT_LT(s.local_score(), 0.02);
+    } else if (s.channel == Channel::kRange) {
+      EXPECT_GT(s.local_score(), 0.2);
+      EXPECT_LT(s.everywhere, 0.02);
+    }
+  }
+  EXPECT_GE(seen, 2);
+}
+
 TEST(StructurePlaces, WhatComesNearOnOnePrintOnlyIsSeenOverPrintAndRange) {
   test::Disturbance wrong;
   wrong.range_m = [](const BeamPoint& beam) {

@@ -143,6 +143,24 @@ TEST_F(SearchState, WhatIsNotThereIsSuperfluousAndWhatIsThereIsNot) {
   EXPECT_EQ(search.in_use()[*k].effect->info().id, "board_bow");
 }
 
+// Scenes held out are predicted better, but chance does as much among so many candidates: it would
+// not be let in.
+TEST_F(SearchState, WhatChanceReachesIsSuperfluous) {
+  const auto made = with_walk(0.00015);
+  EffectSearch search(made.table, made.truth, options_, context_);
+  search.rank();
+  const auto& tried = search.candidates();
+  const auto walk = std::find_if(tried.begin(), tried.end(), [&](const Candidate& c) {
+    return id_of(search, c) == "range_walk";
+  });
+  ASSERT_NE(walk, tried.end());
+  ASSERT_TRUE(is_gain(walk->scene_gain));
+  ASSERT_GT(walk->p_value * static_cast<double>(tried.size()), 1.5 * options_.false_alarm);
+  const EffectColumns columns = columns_of(search, *walk);
+  search.add(columns.effect, columns.shape);
+  EXPECT_EQ(search.superfluous(), 0U);
+}
+
 TEST_F(SearchState, CandidatesComeBestFirst) {
   const auto made = with_walk(0.008);
   EffectSearch search(made.table, made.truth, options_, context_);

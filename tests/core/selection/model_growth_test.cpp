@@ -12,11 +12,22 @@
 namespace lvcalib {
 namespace {
 
+double walk_by_darkness(const BeamPoint& beam) {
+  return 0.008 * beam.darkness;
+}
+
+// Ranges that follow the power that range and incidence leave.
+double walk_by_power(const BeamPoint& beam) {
+  const double log_power =
+      std::log(std::cos(beam.incidence_rad)) - 2.0 * std::log(beam.range_m / 3.0);
+  return 0.02 * (beam.darkness - log_power / std::log(10.0));
+}
+
 class Growing : public ::testing::Test {
  protected:
   Growing() {
     test::Disturbance wrong;
-    wrong.range_m = [](const BeamPoint& beam) { return 0.008 * beam.darkness; };
+    wrong.range_m = walk_by_darkness;
     wrong.corner_px = [](const CornerRow& row) {
       return Eigen::Vector2d(0.15 * row.from_tag_px.normalized());
     };
@@ -31,6 +42,20 @@ class Growing : public ::testing::Test {
     std::vector<std::string> out;
     for (const Selection& s : selections_) out.push_back(s.id);
     return out;
+  }
+  // Rows made again: with a range walk in use its law in them is another.
+  [[nodiscard]] auto with_walk_made_again(double (*law)(const BeamPoint&)) const {
+    return [given = made_.table, law](const ModelState&, const std::vector<EffectInUse>& in_use,
+                                      const RunContext&) {
+      MeasurementTable out = given;
+      const bool walks = std::any_of(in_use.begin(), in_use.end(), [](const EffectInUse& use) {
+        return use.effect->info().id == "range_walk";
+      });
+      for (RangeRow& row : out.range) {
+        if (walks) row.measured_m += law(row.beam) - walk_by_darkness(row.beam);
+      }
+      return out;
+    };
   }
   test::SyntheticTable made_;
   DiscoveryOptions options_;
@@ -93,6 +118,27 @@ TEST_F(Growing, WhatPredictsTheRowsThatItChoosesWorseIsTakenBack) {
   }
 }
 
+// An effect that the rows at hand show and those made with it do not: nothing is left of it.
+TEST_F(Growing, WhatComesToNothingAmongItsOwnRowsIsTakenBack) {
+  made_.table.again = with_walk_made_again([](const BeamPoint&) { return 0.0; });
+  options_.max_effects = 1;
+  EffectSearch search(made_.table, made_.truth, options_, context_);
+  grow_model(search, selections_, options_, context_, [&] { EXPECT_EQ(ids(), ids(search)); });
+  EXPECT_THAT(ids(), ::testing::ElementsAre("corner_bias"));
+  EXPECT_EQ(ids(), ids(search));
+}
+
+// Ranges of the rows made with it follow the power that range and incidence leave as well: another
+// shape, and not a neighbour of that which the rows before show.
+TEST_F(Growing, AShapeIsChosenAnewAmongItsOwnRows) {
+  made_.table.again = with_walk_made_again(walk_by_power);
+  EffectSearch search(made_.table, made_.truth, options_, context_);
+  grow_model(search, selections_, options_, context_, [] {});
+  ASSERT_THAT(ids(), ::testing::ElementsAre("range_walk", "corner_bias"));
+  EXPECT_NEAR(search.in_use()[0].shape, 2.0, 0.1);
+  EXPECT_NEAR(search.in_use()[0].values(0), 0.02, 0.002);
+}
+
 TEST_F(Growing, AStoppedSearchAddsNothing) {
   std::stop_source stop;
   context_.stop = stop.get_token();
@@ -121,11 +167,7 @@ TEST_F(Growing, AShapeBetweenTheOnesTriedLeavesNothingOver) {
 // a neighbour of the first, is. Here ranges follow the power that range and incidence leave.
 TEST_F(Growing, AShapeIsChosenAnewBesideWhatCameIn) {
   test::Disturbance wrong;
-  wrong.range_m = [](const BeamPoint& beam) {
-    const double log_power =
-        std::log(std::cos(beam.incidence_rad)) - 2.0 * std::log(beam.range_m / 3.0);
-    return 0.02 * (beam.darkness - log_power / std::log(10.0));
-  };
+  wrong.range_m = walk_by_power;
   wrong.corner_px = [](const CornerRow& row) {
     return Eigen::Vector2d(0.15 * row.from_tag_px.normalized());
   };
