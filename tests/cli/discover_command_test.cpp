@@ -28,11 +28,11 @@ class DiscoverCommand : public ::testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_lvcalib(arguments);
   }
-  [[nodiscard]] Outcome discover_simulated(const char* seed, const char* scenes,
+  [[nodiscard]] Outcome discover_simulated(const char* seed, const char* scenes, const char* points,
                                            const char* effect) const {
     const fs::path dataset = folder_.path() / "simulated";
     const Outcome made = run_lvcalib({"simulate", "-o", dataset, "--quiet", "--seed", seed,
-                                      "--scenes", scenes, "--effect", effect});
+                                      "--scenes", scenes, "--points", points, "--effect", effect});
     EXPECT_EQ(made.status, 0) << made.err;
     return discover(dataset);
   }
@@ -132,7 +132,7 @@ TEST_F(DiscoverCommand, TheUsersToleranceDecidesWhatMatters) {
 // Dark print reads 10 mm too far, and circles and planes of one scene contradict the others for it;
 // by every return all of them miss alike.
 TEST_F(DiscoverCommand, NoSceneIsRefusedForAMissingEffect) {
-  const Outcome outcome = discover_simulated("2", "4", "range_walk=10");
+  const Outcome outcome = discover_simulated("2", "4", "240000", "range_walk=10");
   EXPECT_THAT(outcome.err, Not(HasSubstr("is not used")));
   EXPECT_THAT(outcome.out, HasSubstr("doubtful -> good"));
   const auto result = json("result.json");
@@ -142,7 +142,7 @@ TEST_F(DiscoverCommand, NoSceneIsRefusedForAMissingEffect) {
 // The nearest board saturates the receiver, whose ranges there contradict the other scenes: these
 // agree with each other and miss nothing.
 TEST_F(DiscoverCommand, ASceneRefusedForAMissingEffectIsUsedWithIt) {
-  const Outcome outcome = discover_simulated("6", "5", "receiver_saturation=10");
+  const Outcome outcome = discover_simulated("6", "5", "120000", "receiver_saturation=10");
   EXPECT_THAT(outcome.err, HasSubstr("scene E is not used: contradicts the other scenes"));
   EXPECT_THAT(outcome.err,
               HasSubstr("scene E contradicts the others only without receiver_saturation"));

@@ -165,6 +165,7 @@ void ScenesDock::edit_note() {
 void ScenesDock::update_actions() {
   const bool any = !selected().isEmpty();
   if (model_.has_notes()) view_->setColumnHidden(SceneModel::kNote, false);
+  view_->setColumnHidden(SceneModel::kTags, !model_.has_tags());
   // In another order than the user's there are no places to drag to.
   const bool own_order = view_->header()->sortIndicatorSection() < 0;
   // Room for an arrow in each heading costs a column or two.

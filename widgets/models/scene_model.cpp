@@ -47,6 +47,7 @@ void SceneModel::set_scenes(const Dataset& dataset, const QStringList& missing) 
   // Scenes of every rig are called A, B, C.
   if (dataset.path != dataset_) thumbnails_.clear();
   dataset_ = dataset.path;
+  has_tags_ = dataset.target.has_tags();
   problems_.clear();
   for (const SceneFiles& files : dataset.scenes) {
     Row row;

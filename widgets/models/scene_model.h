@@ -31,6 +31,8 @@ class SceneModel : public QAbstractTableModel {
   void set_decisions(const Decisions& decisions);
   /// Null: nothing has run yet.
   void set_result(const std::shared_ptr<const CalibrationResult>& result);
+  /// Whether there are tags on the board.
+  [[nodiscard]] bool has_tags() const { return has_tags_; }
   /// True if some scene has a note.
   [[nodiscard]] bool has_notes() const;
   /// Tells views that titles and words are in another language.
@@ -115,6 +117,7 @@ class SceneModel : public QAbstractTableModel {
   Decisions decisions_;
   std::shared_ptr<const CalibrationResult> result_;
   std::filesystem::path dataset_;  // Whose scenes these are.
+  bool has_tags_ = true;
   QHash<QString, QPixmap> thumbnails_;
   int thumbnail_width_ = 48;
   bool state_said_ = true;

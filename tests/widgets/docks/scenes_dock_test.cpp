@@ -48,6 +48,24 @@ TEST_F(ScenesDockTest, ActionsAreForTheSelectedScenesThatExist) {
   EXPECT_TRUE(use.at(1).at(1).toBool());
 }
 
+// Their column would be empty, and the pages need its room.
+TEST_F(ScenesDockTest, OnlyABoardWithTagsHasAColumnForThem) {
+  const auto open = [&](TargetType type) {
+    Dataset dataset;
+    dataset.target.type = type;
+    dataset.scenes = {{"A", {}, {}, {}}};
+    model_.set_scenes(dataset, {});
+    QCoreApplication::processEvents();
+  };
+  EXPECT_FALSE(view_->isColumnHidden(SceneModel::kTags));
+  const int with = view_->minimumWidth();
+  open(TargetType::kCheckerboard);
+  EXPECT_TRUE(view_->isColumnHidden(SceneModel::kTags));
+  EXPECT_LT(view_->minimumWidth(), with);
+  open(TargetType::kAprilGrid);
+  EXPECT_FALSE(view_->isColumnHidden(SceneModel::kTags));
+}
+
 // No heading has an arrow, and room for one, before the list is sorted.
 TEST_F(ScenesDockTest, AClickOnAHeadingSortsAndTheThirdBringsTheOwnOrderBack) {
   dock_.resize(600, 300);
