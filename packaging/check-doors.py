@@ -55,7 +55,7 @@ WIDGET_DOORS = {
     "intrinsics": ["words", "style", "views", "pages", "runner", "modelling", "dialogs"],
     "tools": ["words", "style", "views", "runner", "modelling", "dialogs"],
     "importing": ["words", "style", "runner", "dialogs", "tools"],
-    "docks": ["words", "style", "models"],
+    "docks": ["words", "style", "views", "models"],
     "start": ["words", "style"],
 }
 

@@ -5,13 +5,13 @@
 #include <QEvent>
 #include <QHeaderView>
 #include <QSortFilterProxyModel>
-#include <QToolBar>
 #include <QTreeView>
 #include <QVBoxLayout>
 #include <algorithm>
 
 #include "models/scene_model.h"
 #include "style/texts.h"
+#include "views/tool_row.h"
 
 namespace lvcalib::widgets {
 namespace {
@@ -28,7 +28,7 @@ ScenesDock::ScenesDock(SceneModel& model, QWidget* parent)
       model_(model),
       sorted_(new QSortFilterProxyModel(this)),
       view_(new QTreeView(this)),
-      bar_(new QToolBar(this)) {
+      tools_(new ToolRow(this)) {
   setObjectName(QStringLiteral("scenes_dock"));
   follow_language_in_title(*this);
   auto* body = new QWidget(this);
@@ -38,7 +38,7 @@ ScenesDock::ScenesDock(SceneModel& model, QWidget* parent)
   make_view(model);
   make_actions();
   layout->addWidget(view_);
-  layout->addWidget(bar_);
+  layout->addWidget(tools_);
   setWidget(body);
   retranslate();
   update_actions();
@@ -94,7 +94,6 @@ void ScenesDock::make_actions() {
     action->setObjectName(QString::fromLatin1(name));
     action->setShortcut(keys);
     action->setShortcutContext(Qt::WindowShortcut);
-    bar_->addAction(action);
     view_->addAction(action);
     return action;
   };
@@ -108,7 +107,7 @@ void ScenesDock::make_actions() {
   note_ = add_action("note", {});
   up_ = add_action("scene_up", QKeySequence(Qt::ALT | Qt::Key_Up));
   down_ = add_action("scene_down", QKeySequence(Qt::ALT | Qt::Key_Down));
-  for (QAction* action : {uncrop_, note_, up_, down_}) bar_->removeAction(action);
+  for (QAction* action : {accept_, reject_, insist_, run_again_, add_}) tools_->addTool(action);
   connect(note_, &QAction::triggered, this, &ScenesDock::edit_note);
   connect(up_, &QAction::triggered, this, [this] { move(-1); });
   connect(down_, &QAction::triggered, this, [this] { move(1); });

@@ -6,12 +6,12 @@
 
 class QAction;
 class QSortFilterProxyModel;
-class QToolBar;
 class QTreeView;
 
 namespace lvcalib::widgets {
 
 class SceneModel;
+class ToolRow;
 
 /// The scene list with what can be done to the selected scenes.
 class ScenesDock : public QDockWidget {
@@ -54,7 +54,7 @@ class ScenesDock : public QDockWidget {
   SceneModel& model_;
   QSortFilterProxyModel* sorted_;
   QTreeView* view_;
-  QToolBar* bar_;
+  ToolRow* tools_;
   QAction* accept_;
   QAction* insist_ = nullptr;
   QAction* reject_;

@@ -104,6 +104,9 @@ void ToolRow::addTool(QAction* action) {
   button->setFocusPolicy(Qt::TabFocus);
   button->setToolButtonStyle(Qt::ToolButtonTextOnly);
   button->setDefaultAction(action);
+  const auto follow = [button, action] { button->setHidden(!action->isVisible()); };
+  connect(action, &QAction::changed, button, follow);
+  follow();
   layout()->addWidget(button);
 }
 

@@ -16,7 +16,7 @@ class ToolRow : public QWidget {
  public:
   explicit ToolRow(QWidget* parent = nullptr);
 
-  /// A button for an action of someone else.
+  /// A button for an action of someone else, seen as long as the action is visible.
   void addTool(QAction* action);
   /// A new action, owned by the row, with its button.
   QAction* newTool();

@@ -7,6 +7,7 @@
 #include <QMimeData>
 #include <QSignalSpy>
 #include <QTest>
+#include <QToolButton>
 #include <QTreeView>
 #include <memory>
 
@@ -64,6 +65,23 @@ TEST_F(ScenesDockTest, OnlyABoardWithTagsHasAColumnForThem) {
   EXPECT_LT(view_->minimumWidth(), with);
   open(TargetType::kAprilGrid);
   EXPECT_FALSE(view_->isColumnHidden(SceneModel::kTags));
+}
+
+// They take more lines where the list is narrow; none hides behind an arrow.
+TEST_F(ScenesDockTest, AllToolsAreSeenHoweverNarrowTheListIs) {
+  for (const int width : {view_->minimumWidth(), 600}) {
+    dock_.resize(width, 300);
+    QTest::qWait(20);
+    int seen = 0;
+    for (const QToolButton* button : dock_.widget()->findChildren<QToolButton*>()) {
+      if (!button->isVisible()) continue;
+      ++seen;
+      EXPECT_GE(button->width(), button->sizeHint().width()) << width;
+      const QRect place(button->mapTo(dock_.widget(), QPoint()), button->size());
+      EXPECT_TRUE(dock_.widget()->rect().contains(place)) << width;
+    }
+    EXPECT_EQ(seen, 4) << "without that which overrules a refusal";
+  }
 }
 
 // No heading has an arrow, and room for one, before the list is sorted.
