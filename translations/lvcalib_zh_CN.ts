@@ -1710,8 +1710,8 @@ were saved. Take them up again?</source>
         <translation>作数阈值</translation>
     </message>
     <message>
-        <source>Tried in the model it predicts scenes held out worse: %1; too few of them show it, or something else does what it explains. To decide: %2.</source>
-        <translation>放入模型后，它对留出场景的预测反而更差：%1；能显示它的场景太少，或者它所解释的现象另有原因。要判定需要：%2。</translation>
+        <source>Tried in the model it predicts scenes held out worse, or nothing is left of it: %1; too few of them show it, or something else does what it explains. To decide: %2.</source>
+        <translation>放入模型后，它对留出场景的预测反而更差，或者它已所剩无几：%1；能显示它的场景太少，或者它所解释的现象另有原因。要判定需要：%2。</translation>
     </message>
     <message>
         <source>the model of every return could not be solved (%1): the extrinsic rests on nodes, planes and corners</source>
@@ -4958,8 +4958,8 @@ were saved. Take them up again?</source>
         <translation>并非每个点云都有时间</translation>
     </message>
     <message>
-        <source>tried in the model, it must not predict scenes held out worse</source>
-        <translation>放入模型试用后，它不得使留出场景的预测变差</translation>
+        <source>tried in the model, it must not predict scenes held out worse or come to nothing</source>
+        <translation>放入模型试用后，它不得使留出场景的预测变差，也不得化为乌有</translation>
     </message>
     <message>
         <source>what shows in one scene only may be that scene&apos;s own fault</source>

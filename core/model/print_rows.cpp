@@ -64,7 +64,8 @@ PrintRows::Followed PrintRows::follow_white(const BeamPoint& beam, double white,
   // Print of one kind that stays so says what it said: a trace of a ten-thousandth of the contrast
   // is a hundredth of the noise of the best receivers.
   constexpr double kPlain = 1e-4;
-  // Central differences: off by a millionth of the third derivative.
+  // Central differences over a share of white: off by a millionth of the third derivative, and
+  // rounding is far below.
   constexpr double kStep = 1e-3;
   const auto plain = [](double w) { return w < kPlain || w > 1.0 - kPlain; };
   if (plain(white) && plain(beam.white) && std::abs(white - beam.white) < 0.5) return out;

@@ -346,7 +346,9 @@ Message reason_of(const Criterion& criterion) {
                "something left to say")},
       {"beside_place",
        Message("something at one place predicts better, and the effect must take away half of it")},
-      {"scenes_agree", Message("tried in the model, it must not predict scenes held out worse")}};
+      {"scenes_agree",
+       Message(
+           "tried in the model, it must not predict scenes held out worse or come to nothing")}};
   const auto found = reasons.find(criterion.name);
   return found == reasons.end() ? Message() : found->second;
 }

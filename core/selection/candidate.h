@@ -15,7 +15,8 @@ namespace lvcalib {
 enum class Contradiction {
   kNone,
   kPrints,  ///< White and black print tell different stories about it (see print_contrast.h).
-  kScenes,  ///< Tried in the model, it predicts scenes held out worse (see predicts_worse()).
+  kScenes,  ///< Tried in the model, it predicts scenes held out worse (see predicts_worse()), or
+            ///< nothing is left of it.
   kLevels,  ///< It acts on edges alone, and the intensities in which these are found are doubted.
   kCurve,   ///< Beside a curve over a covariate, which predicts far better, it says nothing.
   kPlace,   ///< Something local predicts better, and with it in the model most of that stays.
@@ -121,7 +122,7 @@ Candidate evaluate_candidate(const Linearization& linear, const Reference& refer
 ///   edges_trusted     it does not act on edges alone where these are doubted
 ///   beside_curve      beside a curve that predicts far better it has something left to say
 ///   beside_place      it takes away half of what predicts better at a place
-///   scenes_agree      tried in the model, it predicts scenes held out no worse
+///   scenes_agree      tried in the model, it predicts scenes held out no worse and stays
 /// reason_of() says why each is asked.
 /// How large it is, and what it does to the extrinsic, are no rules: what is there is there.
 std::vector<Criterion> criteria_of(const Candidate& candidate, std::size_t tried,

@@ -221,8 +221,8 @@ void judge_other(const EffectSearch& search, const Candidate& c, const Discovery
         values);
   } else if (c.contradiction == Contradiction::kScenes) {
     f.explanation = Message(
-        "Tried in the model it predicts scenes held out worse: %1; too few of them show it, or "
-        "something else does what it explains. To decide: %2.",
+        "Tried in the model it predicts scenes held out worse, or nothing is left of it: %1; too "
+        "few of them show it, or something else does what it explains. To decide: %2.",
         values, pose);
   } else if (c.contradiction == Contradiction::kCurve) {
     f.explanation = Message(

@@ -185,7 +185,7 @@ bool try_shapes(GrowingModel& model, std::size_t count, const RunContext& contex
 
 struct Superfluous {
   bool dropped = false;  // Some were, and are out of the model.
-  bool newest = false;   // The last addition is: whether it stays is for others to decide.
+  bool newest = false;   // The last addition is, and is in the model still.
 };
 
 // What a later effect explains better goes again (never what the user asked for).

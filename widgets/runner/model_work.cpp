@@ -189,12 +189,13 @@ void ModelWork::run(Place goal, const DescribedCommand::Words& words) {
                     ? tr("Model: %1").arg(DescribedCommand(kContext, words).description())
                 : source_ == source ? tr("Model: going to another step")
                                     : tr("Model: fitted again, as the calibration is another"));
-  source_ = source;
+  // Only what the scenes were awaited for: another calibration, and with them.
   const bool search =
-      !search_with_.empty() &&
+      source_ != source && !search_with_.empty() &&
       std::all_of(search_with_.begin(), search_with_.end(), [&](const QString& scene) {
         return decision_of(workspace_.decisions(), scene.toStdString()).insist;
       });
+  source_ = source;
   runner_.start([this, source, goal, words, search, made = made_](
                     const RunContext& context, const Runner::Post& post) -> Runner::Deliver {
     const auto fail = [this](const Error& error) -> Runner::Deliver {
