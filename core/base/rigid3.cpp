@@ -5,6 +5,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "base/symmetric.h"
+
 namespace lvcalib {
 namespace {
 
@@ -39,6 +41,10 @@ Eigen::Vector3d so3_log(const Eigen::Quaterniond& q) {
   const double s = p.vec().norm();
   if (s < 1e-9) return 2.0 * p.vec();
   return 2.0 * std::atan2(s, p.w()) / s * p.vec();
+}
+
+Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  return Eigen::Quaterniond::FromTwoVectors(from, to);
 }
 
 Rigid3 Rigid3::from_matrix(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation) {
@@ -103,7 +109,7 @@ UncertainRigid3 information_mean(const std::vector<UncertainRigid3>& estimates) 
     Matrix6d information = Matrix6d::Zero();
     Vector6d rhs = Vector6d::Zero();
     for (const UncertainRigid3& t : estimates) {
-      const Matrix6d weight = t.covariance.ldlt().solve(Matrix6d::Identity());
+      const Matrix6d weight = symmetric_inverse(t.covariance);
       information += weight;
       rhs += weight * se3_log(t.transform * out.transform.inverse());
     }

@@ -20,6 +20,9 @@ Eigen::Quaterniond so3_exp(const Eigen::Vector3d& w);
 /// Inverse of so3_exp; the result's norm is at most π.
 Eigen::Vector3d so3_log(const Eigen::Quaterniond& q);
 
+/// Shortest rotation that takes the direction of `from` to that of `to`.
+Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
 /// A rigid transform a_from_b: takes a point in frame b to frame a. Variables are named
 /// `camera_from_lidar`, so that a_from_b * b_from_c reads right and a wrong order reads wrong.
 struct Rigid3 {

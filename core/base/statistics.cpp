@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 
@@ -150,6 +151,21 @@ double f_gate(int degrees_of_freedom, double noise_freedom, double tail) {
   if (!(noise_freedom >= 1.0)) return std::numeric_limits<double>::infinity();
   const boost::math::fisher_f_distribution<double, Plain> f(degrees_of_freedom, noise_freedom);
   return degrees_of_freedom * boost::math::quantile(boost::math::complement(f, tail));
+}
+
+double f_tail(int degrees_of_freedom, double noise_freedom, double f) {
+  const boost::math::fisher_f_distribution<double, Plain> distribution(degrees_of_freedom,
+                                                                       noise_freedom);
+  return boost::math::cdf(boost::math::complement(distribution, f));
+}
+
+double student_gate(double degrees_of_freedom, double tail) {
+  const boost::math::students_t_distribution<double, Plain> t(degrees_of_freedom);
+  return boost::math::quantile(boost::math::complement(t, tail));
+}
+
+double poisson_tail(double count, double mean) {
+  return boost::math::gamma_p(count, mean, Plain());
 }
 
 }  // namespace lvcalib

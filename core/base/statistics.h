@@ -61,4 +61,14 @@ double chi_square_gate(int degrees_of_freedom, double tail);
 /// residual tells the noise.
 double f_gate(int degrees_of_freedom, double noise_freedom, double tail);
 
+/// P(F > f) for the F distribution of a mean of squares of so many degrees of freedom over one of
+/// `noise_freedom`.
+double f_tail(int degrees_of_freedom, double noise_freedom, double f);
+
+/// Upper quantile of Student's t distribution: P(t > result) = tail.
+double student_gate(double degrees_of_freedom, double tail);
+
+/// P(X ≥ count) of a Poisson variable with this mean; count > 0 need not be whole.
+double poisson_tail(double count, double mean);
+
 }  // namespace lvcalib

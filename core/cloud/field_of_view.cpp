@@ -5,8 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+
+#include "base/symmetric.h"
 
 namespace lvcalib {
 namespace {
@@ -77,7 +78,7 @@ FieldOfView about_middle(const Directions& directions, const Polar& polar) {
 FieldOfView all_around(const Directions& directions) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Eigen::Vector3d& d : directions) spread += d * d.transpose();
-  const Polar polar(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0));
+  const Polar polar(axes_of(spread).vectors.col(0));
   double low = std::numbers::pi;
   double high = 0.0;
   for (const Eigen::Vector3d& d : directions) {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include <Eigen/Eigenvalues>
+#include "base/symmetric.h"
 
 namespace lvcalib {
 namespace {
@@ -96,11 +96,9 @@ class Patches {
     }
     if (sum.n < options_.min_points) return Eigen::Vector3f::Zero();
     const Eigen::Vector3d mean = sum.first / sum.n;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum.second / sum.n -
-                                                                mean * mean.transpose());
-    if (!(solver.eigenvalues()(0) < options_.flatness * solver.eigenvalues()(1)))
-      return Eigen::Vector3f::Zero();
-    const Eigen::Vector3d normal = solver.eigenvectors().col(0);
+    const auto axes = axes_of<3>(sum.second / sum.n - mean * mean.transpose());
+    if (!(axes.values(0) < options_.flatness * axes.values(1))) return Eigen::Vector3f::Zero();
+    const Eigen::Vector3d normal = axes.vectors.col(0);
     return (normal.dot(origin + mean) > 0.0 ? -normal : normal).cast<float>();
   }
 

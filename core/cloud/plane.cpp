@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "base/statistics.h"
+#include "base/symmetric.h"
 
 namespace lvcalib {
 namespace {
@@ -171,7 +172,7 @@ std::optional<FittedPlane> fit_plane(std::span<const Eigen::Vector3f> points_m,
   plane.center_m = mean - plane.normal * plane.normal.dot(mean - plane.center_m);
   const std::vector<double> residuals = range_residuals(points_m, plane);
   system = build_system(points_m, plane, residuals, groups);
-  plane.covariance = system.normal.ldlt().solve(Eigen::Matrix3d::Identity());
+  plane.covariance = symmetric_inverse(system.normal);
   plane.inliers = system.inliers;
   measure_group_offsets(residuals, groups, plane);
   return plane;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/rigid3.h"
 #include "base/text.h"
 #include "base/units.h"
 
@@ -53,7 +54,7 @@ bool is_seen(const Target& target, const Camera& camera, const Rigid3& camera_fr
 // Board at a point of the camera frame: turned to the line of sight, then tilted and rolled.
 Rigid3 pose_at(const Target& target, const Eigen::Vector3d& center, const GridPose& pose) {
   const Eigen::Quaterniond to_sight =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), center.normalized());
+      rotation_between(Eigen::Vector3d::UnitZ(), center.normalized());
   // Board x right, y up, z towards the camera.
   const Eigen::Quaterniond facing(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()));
   const Eigen::AngleAxisd about_x(kRadPerDeg * pose.tilt_x_deg, Eigen::Vector3d::UnitX());

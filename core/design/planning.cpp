@@ -7,6 +7,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "base/symmetric.h"
 #include "base/text.h"
 #include "base/yaml_file.h"
 
@@ -99,7 +100,7 @@ Eigen::MatrixXd information_before(const std::optional<Matrix6d>& known,
                                    const ColumnSubset& subset) {
   const auto size = 6 + static_cast<Eigen::Index>(subset.columns.size());
   Eigen::MatrixXd out = Eigen::MatrixXd::Identity(size, size) / (kKnownBefore * kKnownBefore);
-  if (known) out.topLeftCorner<6, 6>() += known->ldlt().solve(Matrix6d::Identity());
+  if (known) out.topLeftCorner<6, 6>() += symmetric_inverse(*known);
   for (std::size_t k = 0; k < subset.columns.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k) + 6;
     out(at, at) = 1.0 / (subset.prior_sigma[k] * subset.prior_sigma[k]);
@@ -131,9 +132,7 @@ double visibility(const EffectColumns& c, const Eigen::MatrixXd& h) {
   std::vector<Eigen::Index> at(6);
   std::iota(at.begin(), at.end(), 0);
   for (int k = 0; k < c.count(); ++k) at.push_back(6 + c.first + k);
-  const auto n = static_cast<Eigen::Index>(at.size());
-  const Eigen::MatrixXd covariance =
-      Eigen::MatrixXd(h(at, at)).ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  const Eigen::MatrixXd covariance = symmetric_inverse(Eigen::MatrixXd(h(at, at)));
   double least = HUGE_VAL;
   for (int k = 0; k < c.count(); ++k) {
     const double sigma = std::sqrt(std::max(1e-300, covariance(6 + k, 6 + k)));
@@ -158,7 +157,7 @@ PlannedScene planned_scene(const GridPose& pose, const Rigid3& camera_from_lidar
   scene.pose = pose;
   scene.lidar_from_board = camera_from_lidar.inverse() * pose.camera_from_board;
   const Matrix6d h = information.topLeftCorner<6, 6>();
-  scene.covariance = h.ldlt().solve(Matrix6d::Identity());
+  scene.covariance = symmetric_inverse(h);
   scene.determined = scene.covariance.diagonal().cwiseSqrt().maxCoeff() < 0.1 * kKnownBefore;
   for (const EffectColumns& c : columns.list())
     scene.effects.push_back({c.effect->info().id, visibility(c, information)});

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
+#include "base/symmetric.h"
 #include "base/text.h"
 #include "design/predicted_scene.h"
 
@@ -144,10 +144,7 @@ Message make_visible(const Knowledge& known, const std::string& id, const Unseen
   const auto mine = indices_of({effect.block});
   const auto others = indices_of(rest);
   const auto t = [&](const Eigen::MatrixXd& h) {
-    const Eigen::MatrixXd covariance =
-        schur(h, mine, others)
-            .ldlt()
-            .solve(Eigen::MatrixXd::Identity(effect.block.count, effect.block.count));
+    const Eigen::MatrixXd covariance = symmetric_inverse(schur(h, mine, others));
     double least = HUGE_VAL;
     for (Eigen::Index k = 0; k < effect.block.count; ++k) {
       const double wanted = effect.columns.parameters[static_cast<std::size_t>(k)].size_of_interest;
@@ -179,10 +176,7 @@ std::optional<Message> shrink_extrinsic(const Knowledge& known) {
     const Eigen::MatrixXd information =
         others.empty() ? Eigen::MatrixXd(h(mine, mine)) : schur(h, mine, others);
     // A milliradian weighs as much as a millimetre: they are alike at one metre.
-    return 1e3 /
-           std::sqrt(std::max(1e-12, Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(information)
-                                         .eigenvalues()
-                                         .minCoeff()));
+    return 1e3 / std::sqrt(std::max(1e-12, axes_of(information).values.minCoeff()));
   };
   const auto [pose, after] = best_pose(known, [&](const Eigen::MatrixXd& h) { return -worst(h); });
   const double before = worst(known.now);

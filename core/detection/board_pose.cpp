@@ -9,6 +9,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "base/statistics.h"
+#include "base/symmetric.h"
 
 namespace lvcalib {
 namespace {
@@ -229,7 +230,7 @@ std::vector<Candidate> refined_candidates(const PoseFit& fit, const std::vector<
 // Two poses are the same when the motion between them is far below their uncertainty.
 bool same_pose(const Rigid3& a, const Rigid3& b, const Matrix6d& covariance) {
   const Vector6d motion = se3_log(a * b.inverse());
-  return motion.dot(covariance.ldlt().solve(motion)) < 1.0;
+  return squared_mahalanobis(motion, covariance) < 1.0;
 }
 
 }  // namespace
@@ -276,8 +277,7 @@ Result<BoardPose> estimate_board_pose(const std::vector<CornerObservation>& corn
   out.sigma_px = std::sqrt((squares + prior * stated * stated) / (degrees + prior));
   out.rms_px = std::sqrt(pixel_squares / (2 * count));
   const Matrix6d normal = fit.information(pose, weights, nullptr);
-  out.camera_from_board = {pose,
-                           out.sigma_px * out.sigma_px * normal.ldlt().solve(Matrix6d::Identity())};
+  out.camera_from_board = {pose, out.sigma_px * out.sigma_px * symmetric_inverse(normal)};
   if (!out.camera_from_board.covariance.allFinite()) {
     return Error::input(Message("the corners do not determine the board's pose"));
   }

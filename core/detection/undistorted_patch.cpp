@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 
+#include "base/rigid3.h"
+
 namespace lvcalib {
 namespace {
 
@@ -42,8 +44,7 @@ std::optional<Eigen::Vector2d> UndistortedPatch::exact(const Eigen::Vector2d& pi
 bool UndistortedPatch::fit(const Camera& camera) {
   const auto center = camera.unproject(center_px_);
   if (!center) return false;
-  patch_from_camera_ =
-      Eigen::Quaterniond::FromTwoVectors(*center, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  patch_from_camera_ = rotation_between(*center, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   scale_ = 0.5 * (camera.fx + camera.fy);
   constexpr int kSteps = 7;
   Eigen::Matrix<double, kSteps * kSteps, kTerms> design;

@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 
-#include <boost/math/distributions/students_t.hpp>
+#include "base/statistics.h"
 
 namespace lvcalib {
 namespace {
@@ -18,8 +18,7 @@ constexpr int kFewestScenes = 3;  // for a scatter between scenes
 // Two-sided t quantile at a false alarm of 5 % over all groups.
 double threshold(double freedom, std::size_t groups) {
   const double tail = 0.5 * kFalseAlarm / static_cast<double>(std::max<std::size_t>(1, groups));
-  return boost::math::quantile(
-      boost::math::complement(boost::math::students_t(std::max(1.0, freedom)), tail));
+  return student_gate(std::max(1.0, freedom), tail);
 }
 
 double square(double x) {

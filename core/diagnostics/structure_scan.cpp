@@ -8,10 +8,10 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include "base/parallel.h"
 #include "base/statistics.h"
+#include "base/symmetric.h"
 #include "diagnostics/structure_basis.h"
 
 namespace lvcalib {
@@ -83,14 +83,13 @@ class OwnRows {
     Nuisance scale;
     for (int c = 0; c < kNuisance; ++c)
       scale(c) = products(c, c) > 0.0 ? 1.0 / std::sqrt(products(c, c)) : 0.0;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, kNuisance, kNuisance>> axes(
-        scale.asDiagonal() * products * scale.asDiagonal());
+    const auto axes = axes_of<Eigen::Dynamic>(scale.asDiagonal() * products * scale.asDiagonal());
     Nuisance share;
     for (int c = 0; c < kNuisance; ++c) {
-      const double size = axes.eigenvalues()(c);
+      const double size = axes.values(c);
       share(c) = size > kRounding ? 1.0 / std::sqrt(size) : 0.0;
     }
-    return share.asDiagonal() * axes.eigenvectors().transpose() * scale.asDiagonal();
+    return share.asDiagonal() * axes.vectors.transpose() * scale.asDiagonal();
   }
 
   ChannelResiduals of_;  // Its residuals and standard deviations as value() and weight().

@@ -9,11 +9,11 @@
 #include <optional>
 #include <unordered_set>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include "base/random.h"
 #include "base/statistics.h"
+#include "base/symmetric.h"
 
 namespace lvcalib {
 namespace {
@@ -42,10 +42,10 @@ std::optional<LocalPlane> least_squares_plane(const VoxelCloud& cloud,
     const Eigen::Vector3d d = cloud.voxels()[i].mean_m.cast<double>() - mean;
     scatter += d * d.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+  const auto axes = axes_of(scatter);
   // All on one line: no plane.
-  if (solver.eigenvalues()(1) < 1e-3 * solver.eigenvalues()(2)) return std::nullopt;
-  Eigen::Vector3d normal = solver.eigenvectors().col(0);
+  if (axes.values(1) < 1e-3 * axes.values(2)) return std::nullopt;
+  Eigen::Vector3d normal = axes.vectors.col(0);
   if (normal.dot(mean) > 0) normal = -normal;
   return LocalPlane{normal, mean, ids.size()};
 }

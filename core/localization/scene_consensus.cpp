@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 #include "base/statistics.h"
+#include "base/symmetric.h"
 
 namespace lvcalib {
 namespace {
@@ -27,8 +26,7 @@ double agreement_gate() {
 
 double squared_distance(const UncertainRigid3& a, const UncertainRigid3& b) {
   const Vector6d delta = se3_log(a.transform * b.transform.inverse());
-  const Eigen::LDLT<Matrix6d> factor(a.covariance + b.covariance);
-  return delta.dot(factor.solve(delta));
+  return squared_mahalanobis<6>(delta, a.covariance + b.covariance);
 }
 
 std::vector<Proposal> propose(const std::vector<SceneHypotheses>& scenes,

@@ -6,8 +6,8 @@
 
 #include <Eigen/Geometry>
 
-#include "base/semidefinite.h"
 #include "base/statistics.h"
+#include "base/symmetric.h"
 
 namespace lvcalib {
 namespace {

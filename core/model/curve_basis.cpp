@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "base/symmetric.h"
 
 namespace lvcalib {
 namespace {
@@ -83,11 +83,11 @@ void CurveBasis::make_penalised() {
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(splines_, splines_);
   const Eigen::MatrixXd penalty =
       axes_.size() == 1 ? along : Eigen::MatrixXd(kronecker(along, one) + kronecker(one, along));
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(penalty);
+  const auto axes = axes_of(penalty);
   const Eigen::Index null = axes_.size() == 1 ? 2 : 4;  // constant and linear parts
   const Eigen::Index count = penalty.rows() - null;
-  penalised_ = eigen.eigenvectors().rightCols(count) *
-               eigen.eigenvalues().tail(count).cwiseSqrt().cwiseInverse().asDiagonal();
+  penalised_ = axes.vectors.rightCols(count) *
+               axes.values.tail(count).cwiseSqrt().cwiseInverse().asDiagonal();
   const auto samples = samples_of(axes_);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(count);
   double squares = 0.0;

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
+#include "base/symmetric.h"
 #include "model/covariate_effect.h"
 #include "model/formula_expression.h"
 
@@ -161,11 +160,11 @@ Status FormulaEffect::bind(const MeasurementTable& table, const UserEffectOption
   }
   const Eigen::MatrixXd correlation =
       rms.cwiseInverse().asDiagonal() * squares * rms.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(correlation);
-  if (n > 1 && eigen.eigenvalues()(0) < 1e-9) {
+  const auto axes = axes_of(correlation);
+  if (n > 1 && axes.values(0) < 1e-9) {
     std::vector<Message> together;
     for (Eigen::Index k = 0; k < n; ++k) {
-      if (std::abs(eigen.eigenvectors()(k, 0)) > 0.05)
+      if (std::abs(axes.vectors(k, 0)) > 0.05)
         together.push_back(Message::verbatim(names[static_cast<std::size_t>(k)]));
     }
     return error(

@@ -3,9 +3,8 @@
 
 #include <algorithm>
 
-#include <Eigen/Cholesky>
-
 #include "base/normal_equations.h"
+#include "base/symmetric.h"
 #include "solve/solution_report.h"
 
 namespace lvcalib {
@@ -125,7 +124,7 @@ ExtrinsicSolution report_forward(const ReportedPose& pose, const SubsetSolver& s
   fit.mask = mask_of(start);
   fit.scales = scales_of(start);
   fit.fit.state.camera_from_lidar = all;
-  fit.fit.information = pose.camera_from_lidar.covariance.ldlt().solve(Matrix6d::Identity());
+  fit.fit.information = symmetric_inverse(pose.camera_from_lidar.covariance);
   std::size_t next = 0;
   for (const SceneSolution& scene : start.scenes) {
     fit.reasons.push_back(scene.reason);

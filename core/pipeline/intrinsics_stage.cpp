@@ -6,9 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
-
 #include "base/statistics.h"
+#include "base/symmetric.h"
 #include "base/text.h"
 #include "detection/board_pose.h"
 #include "detection/board_view.h"
@@ -96,18 +95,12 @@ bool drop_stray_images(CalibrationResult& result, const IntrinsicsFit& fit) {
   return any;
 }
 
-double worst_axis(const Eigen::Matrix3d& covariance) {
-  return std::sqrt(std::max(
-      0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance, Eigen::EigenvaluesOnly)
-               .eigenvalues()(2)));
-}
-
 // Standard deviations along the worst axis: of the LiDAR's position (m) and of the rotation (rad).
 std::pair<double, double> worst_sigmas(const UncertainRigid3& x) {
   Eigen::Matrix<double, 3, 6> position;
   position << Eigen::Matrix3d::Identity(), -skew(x.transform.translation);
-  return {worst_axis(position * x.covariance * position.transpose()),
-          worst_axis(x.covariance.bottomRightCorner<3, 3>())};
+  return {largest_sigma(position * x.covariance * position.transpose()),
+          largest_sigma(x.covariance.bottomRightCorner<3, 3>())};
 }
 
 // Whether what camera and LiDAR see of the boards disagrees beyond noise in the model of a solve.
@@ -225,7 +218,7 @@ void judge_move(const CalibrationResult& result, IntrinsicsContradiction& found)
 // T + (1 − 1/q) m mᵀ has it at one standard deviation (Sherman–Morrison).
 void widen_total(CalibrationResult& result, const Rigid3& freed) {
   const Vector6d m = se3_log(freed * result.extrinsic.camera_from_lidar.transform.inverse());
-  const double q = m.dot(result.covariance_total.ldlt().solve(m));
+  const double q = squared_mahalanobis(m, result.covariance_total);
   if (std::isfinite(q) && q > 1.0) result.covariance_total += (1.0 - 1.0 / q) * m * m.transpose();
 }
 

@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-
+#include "base/symmetric.h"
 #include "base/text.h"
 #include "model/board_prediction.h"
 #include "pipeline/verdict.h"
@@ -107,8 +106,8 @@ double coordinate_step_m(const Cloud& cloud) {
 // The width that the solve finds has the rounding's own in it.
 double displaced_by_rounding_m(double step_m, const BeamSpread& beam, double range_m) {
   if (!(step_m > 0.0)) return 0.0;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(beam.blur_rad2);
-  const double spot2 = range_m * range_m * axes.eigenvalues()(0) - step_m * step_m / 12.0;
+  const double spot2 =
+      range_m * range_m * axes_of(beam.blur_rad2).values(0) - step_m * step_m / 12.0;
   return step_m / std::numbers::pi *
          std::exp(-2.0 * std::pow(std::numbers::pi / step_m, 2) * std::max(0.0, spot2));
 }

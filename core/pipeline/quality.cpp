@@ -8,9 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-
 #include "base/statistics.h"
+#include "base/symmetric.h"
 #include "base/text.h"
 #include "cloud/about_cloud.h"
 #include "model/row_covariates.h"
@@ -135,13 +134,8 @@ void judge_precision(const ExtrinsicSolution& x, const QualityOptions& options, 
   Eigen::Matrix<double, 3, 6> position;
   position << Eigen::Matrix3d::Identity(), -skew(x.camera_from_lidar.transform.translation);
   const Matrix6d& covariance = x.camera_from_lidar.covariance;
-  const auto worst = [](const Eigen::Matrix3d& m) {
-    return std::sqrt(
-        std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m, Eigen::EigenvaluesOnly)
-                          .eigenvalues()(2)));
-  };
-  const double sigma_m = worst(position * covariance * position.transpose());
-  const double sigma_rad = worst(covariance.bottomRightCorner<3, 3>());
+  const double sigma_m = largest_sigma(position * covariance * position.transpose());
+  const double sigma_rad = largest_sigma(covariance.bottomRightCorner<3, 3>());
   if (sigma_m > options.max_sigma_translation_m || sigma_rad > options.max_sigma_rotation_rad) {
     verdict.failed(
         Message("the scenes leave the extrinsic open: ± %1 mm and ± %2 mrad along the worst axes; "

@@ -8,8 +8,7 @@
 #include <map>
 #include <set>
 
-#include <Eigen/Cholesky>
-
+#include "base/symmetric.h"
 #include "base/text.h"
 #include "solve/board_returns.h"
 
@@ -150,7 +149,7 @@ std::vector<GateDistance> gate_distances(const CalibrationResult& result) {
       const Eigen::Matrix2d covariance =
           x.node_scale * x.node_scale *
           (refined.nodes[k].covariance_m2 + floor_m * floor_m * Eigen::Matrix2d::Identity());
-      const double chi2 = in_plane.dot(covariance.ldlt().solve(in_plane));
+      const double chi2 = squared_mahalanobis(in_plane, covariance);
       out.push_back({What::kCircle, std::sqrt(std::max(0.0, chi2)), solved.nodes[k].used});
     }
   }

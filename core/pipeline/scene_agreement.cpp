@@ -8,10 +8,9 @@
 #include <vector>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <boost/math/distributions/fisher_f.hpp>
 
 #include "base/statistics.h"
+#include "base/symmetric.h"
 #include "base/text.h"
 #include "pipeline/board_agreement.h"
 #include "pipeline/diagnosis.h"
@@ -59,7 +58,7 @@ void judge_leverage(const CalibrationResult& result, Verdict& verdict) {
     if ((move.cwiseAbs() - 3.0 * sigma).maxCoeff() <= 0.0) continue;
     // Both share the other scenes: the move's covariance is the difference of theirs.
     const Matrix6d spread = rest->covariance - all.covariance;
-    const double chi = move.dot(spread.ldlt().solve(move));
+    const double chi = squared_mahalanobis(move, spread);
     const double move_m =
         translation_distance_m(all.transform.inverse(), rest->transform.inverse());
     const double move_rad = rotation_distance_rad(all.transform, rest->transform);
@@ -104,15 +103,16 @@ struct ChiSquareDrop {
   int freedom = 0;
 };
 
-template <class Matrix, class Vector>
-ChiSquareDrop chi_square_drop(const Matrix& information, const Vector& gradient) {
+template <int N>
+ChiSquareDrop chi_square_drop(const Eigen::Matrix<double, N, N>& information,
+                              const Eigen::Matrix<double, N, 1>& gradient) {
   constexpr double kRank = 1e-9;  // What rounding leaves of directions that nothing tells.
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(information);
+  const auto axes = axes_of(information);
   ChiSquareDrop out;
   for (Eigen::Index k = 0; k < gradient.size(); ++k) {
-    const double told = eigen.eigenvalues()(k);
-    if (!(told > kRank * eigen.eigenvalues().maxCoeff())) continue;
-    out.chi += std::pow(eigen.eigenvectors().col(k).dot(gradient), 2) / told;
+    const double told = axes.values(k);
+    if (!(told > kRank * axes.values.maxCoeff())) continue;
+    out.chi += std::pow(axes.vectors.col(k).dot(gradient), 2) / told;
     ++out.freedom;
   }
   return out;
@@ -193,8 +193,7 @@ class Motions {
     const double explained = std::max(0.0, chi - common_.chi) / 6.0;
     // Not less than noise: that of few scenes may be small by chance.
     const double left = std::max(1.0, (free_.chi - chi) / freedom);
-    const boost::math::fisher_f f(6.0, freedom);
-    return boost::math::cdf(boost::math::complement(f, explained / left));
+    return f_tail(6, freedom, explained / left);
   }
 
   std::vector<SceneInformation> scenes_;
@@ -393,7 +392,7 @@ void judge_place(const CalibrationResult& result, Verdict& verdict) {
   const Vector6d move = se3_log(solved.transform * localized.transform.inverse());
   const Matrix6d spread = localized.covariance + solved.covariance;
   // One in ten thousand, as where scenes are compared.
-  if (!(move.dot(spread.ldlt().solve(move)) > chi_square_gate(6, 1e-4))) return;
+  if (!(squared_mahalanobis(move, spread) > chi_square_gate(6, 1e-4))) return;
   verdict.doubtful(Message(
       "the joint solve puts the LiDAR %1 mm and %2 mrad from where the localized boards put it, "
       "more than both leave open: it may have locked onto another place of the print; add scenes "

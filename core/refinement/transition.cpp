@@ -7,9 +7,9 @@
 #include <optional>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include "base/statistics.h"
+#include "base/symmetric.h"
 
 namespace lvcalib {
 namespace {
@@ -73,11 +73,10 @@ void TransitionModel::update_footprint(const std::vector<UnwrappedSample>& sampl
     next << footprint_(0, 0) + step(0), footprint_(0, 1) + step(1), footprint_(0, 1) + step(1),
         footprint_(1, 1) + step(2);
     // Keep the ellipse within believable axes.
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(next);
+    const auto axes = axes_of(next);
     const Eigen::Vector2d bounded =
-        axes.eigenvalues().cwiseMax(min_sigma_m * min_sigma_m).cwiseMin(max_sigma_m * max_sigma_m);
-    const Eigen::Matrix2d kept =
-        axes.eigenvectors() * bounded.asDiagonal() * axes.eigenvectors().transpose();
+        axes.values.cwiseMax(min_sigma_m * min_sigma_m).cwiseMin(max_sigma_m * max_sigma_m);
+    const Eigen::Matrix2d kept = axes.vectors * bounded.asDiagonal() * axes.vectors.transpose();
     const double change = (kept - footprint_).norm() / footprint_.norm();
     footprint_ = kept;
     if (change < 1e-3) break;

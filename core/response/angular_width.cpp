@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include "base/statistics.h"
+#include "base/symmetric.h"
 #include "response/transition_spread.h"
 
 namespace lvcalib {
@@ -85,9 +85,9 @@ double take(const Unknowns& step, Unknowns& x) {
   Eigen::Matrix2d a;
   a << x(0), x(1), x(1), x(2);
   const double trace = old(0) + old(2);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(a);
-  const Eigen::Vector2d bounded = axes.eigenvalues().cwiseMax(0.01 * trace).cwiseMin(2.0 * trace);
-  a = axes.eigenvectors() * bounded.asDiagonal() * axes.eigenvectors().transpose();
+  const auto axes = axes_of(a);
+  const Eigen::Vector2d bounded = axes.values.cwiseMax(0.01 * trace).cwiseMin(2.0 * trace);
+  a = axes.vectors * bounded.asDiagonal() * axes.vectors.transpose();
   x.head<3>() << a(0, 0), a(0, 1), a(1, 1);
   return (x.head<3>() - old.head<3>()).norm() / trace;
 }

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include "base/statistics.h"
+#include "base/symmetric.h"
 
 namespace lvcalib {
 namespace {
@@ -16,13 +16,6 @@ namespace {
 Eigen::Vector3d quadratic_terms(const Eigen::Vector2f& b) {
   const Eigen::Vector2d v = b.cast<double>();
   return {v.x() * v.x(), 2.0 * v.x() * v.y(), v.y() * v.y()};
-}
-
-// Nearest positive semi-definite matrix: noise may push a thin ellipse below zero.
-Eigen::Matrix2d positive(const Eigen::Matrix2d& m) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(m);
-  const Eigen::Vector2d values = axes.eigenvalues().cwiseMax(0.0);
-  return axes.eigenvectors() * values.asDiagonal() * axes.eigenvectors().transpose();
 }
 
 double squared(double x) {
@@ -113,7 +106,8 @@ Eigen::Matrix2d angular_covariance(const OverlapSet& set) {
   if (!a.allFinite()) return Eigen::Matrix2d::Zero();
   Eigen::Matrix2d angular;
   angular << a(0), a(1), a(1), a(2);
-  return positive(angular);
+  // Noise may push a thin ellipse below zero.
+  return without_negative_axes(angular);
 }
 
 JitterShare measure_jitter_share(const std::vector<const BoundarySample*>& samples,
@@ -161,8 +155,7 @@ std::optional<ResponseStatistics> summarize_response(const OverlapSet& set,
     directions += b * b.transpose() / static_cast<double>(set.samples.size());
   }
   constexpr double kOneSided = 0.1;
-  if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(directions).eigenvalues()(0) < kOneSided)
-    return std::nullopt;
+  if (axes_of(directions).values(0) < kOneSided) return std::nullopt;
   ResponseStatistics out;
   out.n = static_cast<int>(set.samples.size());
   paired_moments(set, out);

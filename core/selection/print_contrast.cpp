@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <memory>
 
-#include <Eigen/Cholesky>
-
+#include "base/symmetric.h"
 #include "model/catalogue_effect.h"
 
 namespace lvcalib {
@@ -85,7 +84,7 @@ class PrintContrast {
     const Eigen::MatrixXd both = c.topLeftCorner(p, p) + c.bottomRightCorner(p, p);
     const Eigen::MatrixXd cross = c.topRightCorner(p, p) + c.bottomLeftCorner(p, p);
     const auto is_nothing = [&](const Eigen::VectorXd& theta, const Eigen::MatrixXd& covariance) {
-      const double length = theta.dot(covariance.ldlt().solve(theta));
+      const double length = squared_mahalanobis(theta, covariance);
       return f_test(length, p, linear_.scenes.size()) > options_.false_alarm;
     };
     const Eigen::VectorXd white = by_effect + by_contrast;

@@ -7,8 +7,8 @@
 
 #include <Eigen/Cholesky>
 
-#include "base/semidefinite.h"
 #include "base/statistics.h"
+#include "base/symmetric.h"
 #include "model/camera_intrinsics.h"
 #include "selection/effect_search.h"
 #include "solve/total_uncertainty.h"

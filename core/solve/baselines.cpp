@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
+#include "base/symmetric.h"
 #include "solve/alignment.h"
 #include "solve/cost_functions.h"
 
@@ -41,8 +41,7 @@ Matrix6d pose_covariance(const MethodInput& input, std::size_t s) {
     const Eigen::Matrix<double, 2, 6> j = by_point * point_by_pose(p);
     information += j.transpose() * j;
   }
-  return input.scales.sigma_px * input.scales.sigma_px *
-         information.ldlt().solve(Matrix6d::Identity());
+  return input.scales.sigma_px * input.scales.sigma_px * symmetric_inverse(information);
 }
 
 double lidar_variance(const MethodInput& input, std::size_t s, const RefinedNode& node) {

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include <Eigen/Cholesky>
-#include <boost/math/special_functions/gamma.hpp>
 
 #include "base/statistics.h"
 
@@ -278,9 +277,8 @@ void cover_crowds(const std::vector<PlacedReturn>& near, const std::vector<Place
     for (const PlacedReturn& r : left) {
       const double others = near_counts.about(r.board_m, r.reach_m) - 1.0;
       const double about = std::max(others, counts.about(r.board_m, r.reach_m));
-      // P(X ≥ n) of Poisson's distribution.
-      if (others < 1.0 || boost::math::gamma_p(others, rate * about) >
-                              kFalseCover / static_cast<double>(near.size()))
+      if (others < 1.0 ||
+          poisson_tail(others, rate * about) > kFalseCover / static_cast<double>(near.size()))
         continue;
       covered.cover(r.board_m, r.reach_m);
       found = true;

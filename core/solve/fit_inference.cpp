@@ -6,11 +6,10 @@
 #include <numeric>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
-#include <boost/math/distributions/fisher_f.hpp>
 
 #include "base/statistics.h"
+#include "base/symmetric.h"
 
 namespace lvcalib {
 namespace {
@@ -41,15 +40,11 @@ Absorbed absorbed(const Eigen::MatrixXd& h, const Eigen::VectorXd& values) {
 }  // namespace
 
 ExtrinsicMove tolerated(const Tolerance& tolerance, const ModelFit& fit) {
-  const auto worst = [](const Eigen::Matrix3d& c) {
-    return std::sqrt(
-        std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(c, Eigen::EigenvaluesOnly)
-                          .eigenvalues()(2)));
-  };
   const double sigmas = tolerance.sigmas;
-  return {
-      std::max(tolerance.move.translation_m, sigmas * worst(fit.covariance.topLeftCorner<3, 3>())),
-      std::max(tolerance.move.rotation_rad, sigmas * worst(fit.covariance.block<3, 3>(3, 3)))};
+  return {std::max(tolerance.move.translation_m,
+                   sigmas * largest_sigma(fit.covariance.topLeftCorner<3, 3>())),
+          std::max(tolerance.move.rotation_rad,
+                   sigmas * largest_sigma(fit.covariance.block<3, 3>(3, 3)))};
 }
 
 ExtrinsicMove move_if_omitted(const ModelFit& fit, const Eigen::VectorXd& values) {
@@ -96,8 +91,7 @@ double f_test(double squares, Eigen::Index p, std::size_t scenes) {
   const double f = squares / static_cast<double>(p);
   const double freedom = std::max(1.0, 3.0 * static_cast<double>(scenes) - 6.0);
   if (!(f > 0.0) || !std::isfinite(f)) return 1.0;
-  return boost::math::cdf(
-      boost::math::complement(boost::math::fisher_f(static_cast<double>(p), freedom), f));
+  return f_tail(static_cast<int>(p), freedom, f);
 }
 
 double f_test(const ModelFit& fit, Eigen::Index p) {
@@ -124,8 +118,7 @@ double determined_share(const ModelFit& fit, Eigen::Index first, Eigen::Index co
   const Eigen::VectorXd scale =
       raw.diagonal().cwiseMax(1e-12 * raw.diagonal().maxCoeff()).cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd share = scale.asDiagonal() * left * scale.asDiagonal();
-  return std::clamp(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(share).eigenvalues().maxCoeff(),
-                    0.0, 1.0);
+  return std::clamp(axes_of(share).values.maxCoeff(), 0.0, 1.0);
 }
 
 MeanAndError mean_and_error(const std::vector<double>& values) {

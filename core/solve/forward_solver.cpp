@@ -5,11 +5,10 @@
 #include <cmath>
 #include <map>
 
-#include <Eigen/Eigenvalues>
-
 #include "base/paired_moments.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
+#include "base/symmetric.h"
 
 namespace lvcalib {
 namespace {
@@ -372,9 +371,9 @@ std::optional<double> iterate(const ForwardRun& in, Iteration& it, const Lineari
   apply(step, it);
   update_noise(in.options.sigma_px_floor, it);
   it.last = std::move(step);
-  const Eigen::VectorXd move = it.last.globals.head<6>();
-  const Matrix6d covariance = it.last.covariance.topLeftCorner<6, 6>();
-  return std::sqrt(std::max(0.0, move.dot(covariance.ldlt().solve(move)) / 6.0));
+  const double squares =
+      squared_mahalanobis<6>(it.last.globals.head<6>(), it.last.covariance.topLeftCorner<6, 6>());
+  return std::sqrt(std::max(0.0, squares / 6.0));
 }
 
 double mean_range_m(const ForwardState& state) {

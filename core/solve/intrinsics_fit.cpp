@@ -11,9 +11,9 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include "base/statistics.h"
+#include "base/symmetric.h"
 #include "base/text.h"
 #include "solve/bundle_adjustment.h"
 
@@ -210,11 +210,11 @@ IntrinsicsContrast contrast_intrinsics(const IntrinsicsVector& estimated,
       c(i, j) = covariance(first + a, first + b) / (prior(a) * prior(b));
     }
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(c);
+  const auto axes = axes_of(c);
   for (Eigen::Index k = 0; k < n; ++k) {
-    const double variance = axes.eigenvalues()(k);
+    const double variance = axes.values(k);
     if (!(variance > 0.0) || variance > kDetermined) continue;
-    const double along = axes.eigenvectors().col(k).dot(scaled);
+    const double along = axes.vectors.col(k).dot(scaled);
     out.chi_square += along * along / (variance * (1.0 - variance));
     ++out.dof;
   }

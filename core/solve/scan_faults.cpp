@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "base/statistics.h"
+#include "base/symmetric.h"
 #include "solve/total_uncertainty.h"
 
 namespace lvcalib {
@@ -76,19 +75,19 @@ ScanFault score_test(ScanFault::Kind kind, const std::vector<const FaultTerm*>& 
   const Eigen::MatrixXd left =
       unit.asDiagonal() * (information - coupling.transpose() * answer) * unit.asDiagonal();
   const Eigen::VectorXd asked = unit.cwiseProduct(gradient - coupling.transpose() * solved.globals);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(0.5 * (left + left.transpose()));
+  const auto axes = axes_of<Eigen::Dynamic>(0.5 * (left + left.transpose()));
   const double least = kind == ScanFault::Kind::kAngles   ? kLeastResolvedOfAngles
                        : kind == ScanFault::Kind::kOrigin ? kLeastResolvedOfOrigin
                                                           : kLeastResolved;
   int dof = 0;  // The last ones: shares come in rising order.
   for (Eigen::Index k = 0; k < count; ++k) {
-    if (!(axes.eigenvalues()(k) > least)) continue;
-    out.chi_square += std::pow(axes.eigenvectors().col(k).dot(asked), 2) / axes.eigenvalues()(k);
+    if (!(axes.values(k) > least)) continue;
+    out.chi_square += std::pow(axes.vectors.col(k).dot(asked), 2) / axes.values(k);
     ++dof;
   }
   if (dof == 0) return out;
   out.gate = chi_square_gate(dof, chance);
-  const Eigen::MatrixXd tested = axes.eigenvectors().rightCols(dof);
+  const Eigen::MatrixXd tested = axes.vectors.rightCols(dof);
   // Inverse information of the tested directions, with the fault drawn to zero by a size.
   const auto inverse_of = [&](const Eigen::VectorXd& size) -> Eigen::MatrixXd {
     Eigen::MatrixXd drawn = left;

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "base/statistics.h"
+#include "base/symmetric.h"
 #include "solve/scene_residuals.h"
 
 namespace lvcalib {
@@ -83,20 +82,20 @@ void describe_uncertainty(const RobustFit& fit, double weak_ratio, ExtrinsicSolu
   Vector6d unit;
   unit << 1, 1, 1, 1 / lever, 1 / lever, 1 / lever;
   const Matrix6d scaled = unit.asDiagonal() * fit.fit.information * unit.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> axes(scaled);
-  const double largest = std::max(axes.eigenvalues()(5), 1e-300);
+  const auto axes = axes_of(scaled);
+  const double largest = std::max(axes.values(5), 1e-300);
   const double weak = weak_ratio * weak_ratio;
   Matrix6d covariance = Matrix6d::Zero();
   solution.rank = 0;
   for (int k = 0; k < 6; ++k) {
-    const double eigenvalue = axes.eigenvalues()(k);
-    const Vector6d direction = axes.eigenvectors().col(k);
+    const double eigenvalue = axes.values(k);
+    const Vector6d direction = axes.vectors.col(k);
     const bool determined = eigenvalue > 1e-10 * largest;
     if (determined) ++solution.rank;
     // An undetermined direction gets a visible, absurd standard deviation: a kilometre.
     const double variance = determined ? 1.0 / eigenvalue : 1e6;
     covariance += variance * direction * direction.transpose();
-    const double middle = 0.5 * (axes.eigenvalues()(2) + axes.eigenvalues()(3));
+    const double middle = 0.5 * (axes.values(2) + axes.values(3));
     if (!determined || eigenvalue * weak < middle) {
       solution.weak_directions.push_back(describe_direction(
           direction, std::sqrt(middle / std::max(eigenvalue, 1e-300)), determined));

@@ -6,7 +6,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "base/semidefinite.h"
+#include "base/symmetric.h"
 
 namespace lvcalib {
 namespace {

@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 
 #include "base/statistics.h"
+#include "base/symmetric.h"
 #include "solve/feature_problem.h"
 
 namespace lvcalib {
@@ -62,7 +63,7 @@ SplitHalf compare_extrinsics(const UncertainRigid3& a, const UncertainRigid3& b)
   SplitHalf out;
   const Matrix6d covariance = a.covariance + b.covariance;
   const Vector6d xi = se3_log(a.transform * b.transform.inverse());
-  out.chi_square = xi.dot(covariance.ldlt().solve(xi));
+  out.chi_square = squared_mahalanobis(xi, covariance);
   out.gate = chi_square_gate(6, kSplitTail);
   out.translation_mm = 1e3 * translation_distance_m(a.transform, b.transform);
   out.rotation_mrad = 1e3 * rotation_distance_rad(a.transform, b.transform);

@@ -49,6 +49,15 @@ TEST(Rigid3, RotationLogInvertsExpUpToPi) {
               1e-12);
 }
 
+TEST(Rigid3, RotationBetweenIsTheShortest) {
+  const Eigen::Vector3d a(0.3, -2.0, 0.7);
+  const Eigen::Vector3d b(-1.0, 0.2, 0.4);
+  const Eigen::Quaterniond q = rotation_between(a, b);
+  EXPECT_NEAR((q * a.normalized() - b.normalized()).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(so3_log(q).norm(), std::acos(a.normalized().dot(b.normalized())), 1e-12);
+  EXPECT_NEAR((rotation_between(a, -a) * a + a).norm(), 0.0, 1e-9);
+}
+
 TEST(Rigid3, MotionLogInvertsExp) {
   Random random(2);
   for (const double size : {1e-9, 1e-7, 1e-6, 1e-4, 0.1, 1.0}) {

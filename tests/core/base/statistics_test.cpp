@@ -142,5 +142,15 @@ TEST(Statistics, GatesOfEstimatedNoise) {
   EXPECT_TRUE(std::isinf(f_gate(5, 0.0, 1e-3)));
 }
 
+TEST(Statistics, TailsAgreeWithTables) {
+  EXPECT_NEAR(f_tail(3, 10.0, 3.7083), 0.05, 1e-5);
+  EXPECT_NEAR(f_tail(8, 8.0, 6.0289), 0.01, 1e-6);
+  EXPECT_TRUE(std::isnan(f_tail(6, 10.0, std::nan(""))));
+  EXPECT_NEAR(student_gate(1.0, 0.025), 12.7062, 1e-4);
+  EXPECT_NEAR(student_gate(10.0, 0.005), 3.1693, 1e-4);
+  // Three or more where one is expected: 1 − (1 + 1 + 1/2)/e.
+  EXPECT_NEAR(poisson_tail(3.0, 1.0), 1.0 - 2.5 * std::exp(-1.0), 1e-14);
+}
+
 }  // namespace
 }  // namespace lvcalib
