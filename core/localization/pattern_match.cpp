@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <numbers>
-#include <unordered_map>
+#include <utility>
 
 #include <Eigen/Cholesky>
 
@@ -26,18 +28,27 @@ double angle_difference(double a, double b) {
   return std::abs(std::remainder(a - b, 2.0 * std::numbers::pi));
 }
 
-// A sample as the search sees it: where it is from the tried centre.
+// A sample as the search sees it: where it is in the plane, or from the tried centre.
 struct LocalSample {
   float x = 0.0F, y = 0.0F, intensity = 0.0F;
 };
 
-// The samples of a plane in square cells, for those about a place.
+// The samples of a plane in square cells, for those about a place: read thousands of times, so that
+// those of neighbours in a row of cells lie one after the other.
 class SampleGrid {
  public:
   SampleGrid(const std::vector<PlanarSample>& samples, double radius_m)
-      : samples_(samples), radius_m_(static_cast<float>(radius_m)), cell_m_(0.25F * radius_m_) {
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-      cells_[key(index(samples[k].uv_m.x()), index(samples[k].uv_m.y()))].push_back(k);
+      : radius_m_(static_cast<float>(radius_m)), cell_m_(0.25F * radius_m_) {
+    std::map<std::pair<int, int>, std::vector<LocalSample>> cells;
+    for (const PlanarSample& sample : samples) {
+      const Eigen::Vector2f& uv = sample.uv_m;
+      cells[{index(uv.y()), index(uv.x())}].push_back({uv.x(), uv.y(), sample.intensity});
+    }
+    samples_.reserve(samples.size());
+    for (const auto& [place, in_cell] : cells) {
+      std::vector<Cell>& row = rows_[place.first];
+      row.push_back({place.second, samples_.size(), samples_.size() + in_cell.size()});
+      samples_.insert(samples_.end(), in_cell.begin(), in_cell.end());
     }
   }
 
@@ -46,18 +57,23 @@ class SampleGrid {
   // At most about `count` of the samples within the radius, spread evenly.
   void about(const Eigen::Vector2f& center, std::size_t count,
              std::vector<LocalSample>& out) const {
-    out.clear();
-    for (int iy = index(center.y() - radius_m_); iy <= index(center.y() + radius_m_); ++iy) {
-      for (int ix = index(center.x() - radius_m_); ix <= index(center.x() + radius_m_); ++ix) {
-        const auto cell = cells_.find(key(ix, iy));
-        if (cell == cells_.end()) continue;
-        for (const std::size_t k : cell->second) {
-          const Eigen::Vector2f d = samples_[k].uv_m - center;
-          if (d.squaredNorm() > radius_m_ * radius_m_) continue;
-          out.push_back({d.x(), d.y(), samples_[k].intensity});
-        }
+    std::size_t found = 0;
+    const float most = radius_m_ * radius_m_;
+    const int left = index(center.x() - radius_m_);
+    const int right = index(center.x() + radius_m_);
+    const auto end = rows_.upper_bound(index(center.y() + radius_m_));
+    for (auto row = rows_.lower_bound(index(center.y() - radius_m_)); row != end; ++row) {
+      const auto [begin, behind] = run_of(row->second, left, right);
+      if (out.size() < found + behind - begin) out.resize(found + behind - begin);
+      for (std::size_t k = begin; k < behind; ++k) {
+        const LocalSample& sample = samples_[k];
+        const float x = sample.x - center.x();
+        const float y = sample.y - center.y();
+        out[found] = {x, y, sample.intensity};
+        found += x * x + y * y > most ? 0 : 1;
       }
     }
+    out.resize(found);
     const std::size_t stride = out.size() / count;
     if (stride < 2) return;
     for (std::size_t k = 0; k * stride < out.size(); ++k) out[k] = out[k * stride];
@@ -65,15 +81,25 @@ class SampleGrid {
   }
 
  private:
+  struct Cell {
+    int column = 0;
+    std::size_t begin = 0, end = 0;  // Of its samples.
+  };
   [[nodiscard]] int index(float x) const { return static_cast<int>(std::floor(x / cell_m_)); }
-  static std::uint64_t key(int x, int y) {
-    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32U |
-           static_cast<std::uint32_t>(y);
+  // The samples of a row's cells from column `left` to `right`.
+  static std::pair<std::size_t, std::size_t> run_of(const std::vector<Cell>& row, int left,
+                                                    int right) {
+    const auto first = std::partition_point(row.begin(), row.end(),
+                                            [&](const Cell& c) { return c.column < left; });
+    const auto behind =
+        std::partition_point(first, row.end(), [&](const Cell& c) { return c.column <= right; });
+    if (first == behind) return {0, 0};
+    return {first->begin, std::prev(behind)->end};
   }
-  const std::vector<PlanarSample>& samples_;
+  std::vector<LocalSample> samples_;
+  std::map<int, std::vector<Cell>> rows_;
   float radius_m_;
   float cell_m_;
-  std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells_;
 };
 
 // Correlation over every stride-th sample, the board turned by (cosine, sine).

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
+#include "base/parallel.h"
 #include "base/text.h"
 #include "pipeline/camera_resection.h"
 #include "pipeline/diagnosis.h"
@@ -141,6 +143,16 @@ bool missing_scenes(const std::vector<SceneResult>& scenes, const SceneConsensus
   return false;
 }
 
+// Scenes side by side. The first one's error, in their order.
+Status for_each_scene(const CalibrationInput& in, const std::function<Status(std::size_t)>& look) {
+  std::vector<Status> done(in.dataset.scenes.size(), Done{});
+  parallel_for(done.size(), in.context.thread_count(), [&](std::size_t s) { done[s] = look(s); });
+  for (Status& status : done) {
+    if (!status) return std::move(status);
+  }
+  return Done{};
+}
+
 }  // namespace
 
 Status search_again(const CalibrationInput& in, Calibration& run,
@@ -148,10 +160,10 @@ Status search_again(const CalibrationInput& in, Calibration& run,
   const PatternPyramid pyramid(run.result.target);
   const BoardOutline outline = run.result.target.outline();
   const Eigen::Vector2d c = outline.center_m();
-  for (std::size_t s = 0; s < run.result.scenes.size(); ++s) {
+  return for_each_scene(in, [&](std::size_t s) -> Status {
     SceneResult& scene = run.result.scenes[s];
-    if (!scene.view || !scene.reason.empty()) continue;
-    if (camera_from_lidar && run.result.consensus.chosen[s]) continue;
+    if (!scene.view || !scene.reason.empty()) return Done{};
+    if (camera_from_lidar && run.result.consensus.chosen[s]) return Done{};
     BoardSearchRegion region;
     if (camera_from_lidar) {
       const Rigid3 board = camera_from_lidar->inverse() * scene.view->camera_from_board.transform;
@@ -160,11 +172,10 @@ Status search_again(const CalibrationInput& in, Calibration& run,
       region.width = board.rotation * Eigen::Vector3d::UnitX();
     }
     const SecondSearch where{in.dataset.scenes[s], in.request, region, run.result.target, pyramid};
-    if (Status status = search_scene_again(where, in.context, scene, in.cache); !status)
-      return status;
-    run.looked_twice[s] = 1;
-  }
-  return Done{};
+    Status status = search_scene_again(where, in.context, scene, in.cache);
+    if (status) run.looked_twice[s] = 1;
+    return status;
+  });
 }
 
 namespace {
@@ -184,12 +195,12 @@ Status search_plain_boards(const CalibrationInput& in, CalibrationResult& result
     const auto returns = select_returns(cloud, print, lidar_from_board, beam, kRange);
     return returns.has_intensity && intensity_structure(returns) < kPlainStructure;
   };
-  for (std::size_t s = 0; s < result.scenes.size(); ++s) {
+  return for_each_scene(in, [&](std::size_t s) -> Status {
     SceneResult& scene = result.scenes[s];
-    if (!scene.view || !scene.reason.empty()) continue;
+    if (!scene.view || !scene.reason.empty()) return Done{};
     auto cloud = read_scene_cloud(in.dataset.scenes[s], in.request, in.context.stop);
     if (!cloud) return cloud.error();
-    if (!cloud->has_contrast()) continue;
+    if (!cloud->has_contrast()) return Done{};
     const Cloud full = *cloud;
     cloud->intensity.clear();
     const double distance_m = scene.view->camera_from_board.transform.translation.norm();
@@ -199,11 +210,12 @@ Status search_plain_boards(const CalibrationInput& in, CalibrationResult& result
     std::erase_if(found.candidates, [&](const BoardCandidate& candidate) {
       return !is_plain(full, candidate.lidar_from_board.transform);
     });
-    if (found.candidates.empty()) continue;
-    scene.search = std::move(found);
-    scene.no_contrast = true;
-  }
-  return Done{};
+    if (!found.candidates.empty()) {
+      scene.search = std::move(found);
+      scene.no_contrast = true;
+    }
+    return Done{};
+  });
 }
 
 // Where not even half of the scenes agree on the print's place: looks for boards whose print the
