@@ -97,3 +97,5 @@ void DemoTour::start() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_demo_tour.cpp"

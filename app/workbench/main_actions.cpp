@@ -248,3 +248,5 @@ void MainActions::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_main_actions.cpp"

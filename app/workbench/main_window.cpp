@@ -611,3 +611,5 @@ void MainWindow::changeEvent(QEvent* event) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_main_window.cpp"

@@ -236,3 +236,5 @@ void PageStack::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_page_stack.cpp"

@@ -130,3 +130,5 @@ void ResultActions::remember(const QString& path) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_result_actions.cpp"

@@ -128,3 +128,5 @@ QString StatusLine::text() const {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_status_line.cpp"

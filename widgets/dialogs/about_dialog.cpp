@@ -22,3 +22,5 @@ AboutDialog::AboutDialog(QWidget* parent) : QMessageBox(parent) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_about_dialog.cpp"

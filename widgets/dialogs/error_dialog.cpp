@@ -82,3 +82,5 @@ void ErrorDialog::offer(QAction& action) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_error_dialog.cpp"

@@ -226,3 +226,5 @@ void ExportPane::saveCloud(const QString& path) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_export_pane.cpp"

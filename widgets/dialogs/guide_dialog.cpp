@@ -164,3 +164,5 @@ void GuideDialog::showEvent(QShowEvent* event) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_guide_dialog.cpp"

@@ -230,3 +230,5 @@ void ResultsDialog::export_file(const QString& suffix, const QString& filter,
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_results_dialog.cpp"

@@ -33,3 +33,5 @@ void LogDock::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_log_dock.cpp"

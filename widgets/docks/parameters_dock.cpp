@@ -229,3 +229,5 @@ void ParametersDock::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_parameters_dock.cpp"

@@ -261,3 +261,5 @@ void ScenesDock::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_scenes_dock.cpp"

@@ -116,3 +116,5 @@ void BoardChoice::read() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_board_choice.cpp"

@@ -458,3 +458,5 @@ void FilesDialog::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_files_dialog.cpp"

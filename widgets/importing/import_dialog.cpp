@@ -395,3 +395,5 @@ void ImportDialog::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_import_dialog.cpp"

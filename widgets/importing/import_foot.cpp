@@ -125,3 +125,5 @@ void ImportFoot::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_import_foot.cpp"

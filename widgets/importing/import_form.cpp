@@ -260,3 +260,5 @@ void ImportForm::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_import_form.cpp"

@@ -189,3 +189,5 @@ void StretchList::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_stretch_list.cpp"

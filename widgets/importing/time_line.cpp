@@ -343,3 +343,5 @@ bool TimeLine::event(QEvent* event) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_time_line.cpp"

@@ -90,3 +90,5 @@ void TopicList::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_topic_list.cpp"

@@ -170,3 +170,5 @@ void CameraDialog::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_camera_dialog.cpp"

@@ -432,3 +432,5 @@ void CameraPage::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_camera_page.cpp"

@@ -343,3 +343,5 @@ void AddEffectDialog::check() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_add_effect_dialog.cpp"

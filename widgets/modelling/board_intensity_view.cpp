@@ -171,3 +171,5 @@ void BoardIntensityView::contextMenuEvent(QContextMenuEvent* event) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_board_intensity_view.cpp"

@@ -314,3 +314,5 @@ void BudgetPlot::showTip(const QPoint& place) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_budget_plot.cpp"

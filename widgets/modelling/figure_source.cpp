@@ -129,3 +129,5 @@ void FigureSource::requestBoard(int scene) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_figure_source.cpp"

@@ -465,3 +465,5 @@ void MissingPane::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_missing_pane.cpp"

@@ -276,3 +276,5 @@ void ModelPage::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_model_page.cpp"

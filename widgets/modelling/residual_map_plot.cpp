@@ -238,3 +238,5 @@ void ResidualMapPlot::drawSelected() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_residual_map_plot.cpp"

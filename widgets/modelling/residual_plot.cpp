@@ -214,3 +214,5 @@ void ResidualPlot::drawSelected() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_residual_plot.cpp"

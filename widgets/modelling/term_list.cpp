@@ -233,3 +233,5 @@ void TermList::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_term_list.cpp"

@@ -175,3 +175,5 @@ void WhatIfPane::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_what_if_pane.cpp"

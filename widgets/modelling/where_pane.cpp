@@ -347,3 +347,5 @@ void WherePane::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_where_pane.cpp"

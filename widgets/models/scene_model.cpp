@@ -445,3 +445,5 @@ QStringList SceneModel::moved(const QStringList& scenes, int row) const {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_scene_model.cpp"

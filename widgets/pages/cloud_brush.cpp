@@ -137,3 +137,5 @@ bool BrushedCloudPane::busy() const {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_cloud_brush.cpp"

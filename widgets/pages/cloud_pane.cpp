@@ -249,3 +249,5 @@ void CloudPane::updateCount() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_cloud_pane.cpp"

@@ -46,3 +46,5 @@ PointsOfScenes ColorsPane::byScene(const std::vector<std::uint32_t>& points) con
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_colors_pane.cpp"

@@ -294,3 +294,5 @@ void ExtrinsicPage::fillInfluence() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_extrinsic_page.cpp"

@@ -167,3 +167,5 @@ void ImagePane::automaticLevels() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_image_pane.cpp"

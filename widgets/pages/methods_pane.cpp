@@ -201,3 +201,5 @@ void MethodsPane::fillBoxes(const CalibrationResult& result) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_methods_pane.cpp"

@@ -540,3 +540,5 @@ void RefinementPage::fillBins(const NodeRecord* record) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_refinement_page.cpp"

@@ -312,3 +312,5 @@ void ResponsePage::activate(int row) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_response_page.cpp"

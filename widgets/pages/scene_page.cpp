@@ -576,3 +576,5 @@ void ScenePage::clearSelection() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_scene_page.cpp"

@@ -246,3 +246,5 @@ void SelectionBar::keep(bool kept) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_selection_bar.cpp"

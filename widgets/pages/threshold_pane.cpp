@@ -198,3 +198,5 @@ void ThresholdPane::setPreview(const CalibrationResult& present, const Calibrati
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_threshold_pane.cpp"

@@ -53,3 +53,5 @@ void UncertaintyPane::setResult(const CalibrationResult* result) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_uncertainty_pane.cpp"

@@ -97,3 +97,5 @@ void WorldPane::rebuild() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_world_pane.cpp"

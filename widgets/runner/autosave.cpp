@@ -92,3 +92,5 @@ void Autosave::discard(const Recovery& recovery) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_autosave.cpp"

@@ -39,3 +39,5 @@ void CameraWork::add(const Dataset& dataset, const QStringList& images) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_camera_work.cpp"

@@ -94,3 +94,5 @@ void ComparisonWork::request(const ComparisonBasis& basis, const ComparedResult&
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_comparison_work.cpp"

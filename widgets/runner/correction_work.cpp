@@ -164,3 +164,5 @@ void CorrectionWork::correct(std::shared_ptr<const CalibrationResult> result, co
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_correction_work.cpp"

@@ -95,3 +95,5 @@ void EdgeWork::check(const std::shared_ptr<const EdgePlaces>& places,
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_edge_work.cpp"

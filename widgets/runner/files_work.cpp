@@ -97,3 +97,5 @@ void FilesWork::cancel() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_files_work.cpp"

@@ -374,3 +374,5 @@ void ModelWork::build_result() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_model_work.cpp"

@@ -81,3 +81,5 @@ void PlanWork::request(const PlanRequest& request) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_plan_work.cpp"

@@ -48,3 +48,5 @@ void PreviewWork::start() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_preview_work.cpp"

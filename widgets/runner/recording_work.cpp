@@ -169,3 +169,5 @@ void RecordingWork::cancel() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_recording_work.cpp"

@@ -38,3 +38,5 @@ void ReportWriter::write(std::shared_ptr<const CalibrationResult> result,
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_report_writer.cpp"

@@ -209,3 +209,5 @@ bool Runner::wait_for_workers(int milliseconds) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_runner.cpp"

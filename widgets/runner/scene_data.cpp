@@ -87,3 +87,5 @@ void SceneLoader::clear() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_scene_data.cpp"

@@ -155,3 +155,5 @@ void WatchWork::handOver() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_watch_work.cpp"

@@ -496,3 +496,5 @@ void Workspace::keep_or_clear_autosave() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_workspace.cpp"

@@ -205,3 +205,5 @@ void CoachMarks::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_coach_marks.cpp"

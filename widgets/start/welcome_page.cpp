@@ -112,3 +112,5 @@ void WelcomePage::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_welcome_page.cpp"

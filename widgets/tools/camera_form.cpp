@@ -217,3 +217,5 @@ void CameraForm::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_camera_form.cpp"

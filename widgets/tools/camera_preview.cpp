@@ -86,3 +86,5 @@ void CameraPreview::paintEvent(QPaintEvent*) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_camera_preview.cpp"

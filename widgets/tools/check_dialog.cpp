@@ -542,3 +542,5 @@ void CheckDialog::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_check_dialog.cpp"

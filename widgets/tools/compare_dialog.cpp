@@ -486,3 +486,5 @@ void CompareDialog::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_compare_dialog.cpp"

@@ -280,3 +280,5 @@ void CorrectDialog::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_correct_dialog.cpp"

@@ -242,3 +242,5 @@ void lay_out_form(const FormParts& parts, QWidget& whole) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_key_form.cpp"

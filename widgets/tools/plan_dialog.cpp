@@ -554,3 +554,5 @@ void PlanDialog::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_plan_dialog.cpp"

@@ -190,3 +190,5 @@ void PrintDialog::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_print_dialog.cpp"

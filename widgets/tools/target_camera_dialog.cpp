@@ -198,3 +198,5 @@ void TargetCameraDialog::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_target_camera_dialog.cpp"

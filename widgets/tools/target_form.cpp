@@ -326,3 +326,5 @@ void TargetForm::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_target_form.cpp"

@@ -315,3 +315,5 @@ void WatchWindow::retranslate() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_watch_window.cpp"

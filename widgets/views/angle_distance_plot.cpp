@@ -282,3 +282,5 @@ std::vector<QStringList> AngleDistancePlot::tableRows() const {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_angle_distance_plot.cpp"

@@ -64,3 +64,5 @@ void BoardFigure::drawOutlines(const std::function<QPen(const TargetNode&)>& pen
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_board_figure.cpp"

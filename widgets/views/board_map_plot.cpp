@@ -182,3 +182,5 @@ void BoardMapPlot::emitNodeAt(const QPointF& place) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_board_map_plot.cpp"

@@ -120,3 +120,5 @@ void BoardSketch::paintEvent(QPaintEvent* /*event*/) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_board_sketch.cpp"

@@ -227,3 +227,5 @@ void BoxPlot::rebuild() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_category_plots.cpp"

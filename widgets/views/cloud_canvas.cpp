@@ -236,3 +236,5 @@ void CloudCanvas::applyPalette() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_cloud_canvas.cpp"

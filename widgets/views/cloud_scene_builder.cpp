@@ -116,3 +116,5 @@ void CloudSceneBuilder::deliver(int number, std::shared_ptr<const CloudScene> sc
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_cloud_scene_builder.cpp"

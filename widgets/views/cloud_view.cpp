@@ -335,3 +335,5 @@ void CloudView::updateLegend() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_cloud_view.cpp"

@@ -229,3 +229,5 @@ void ColorBar::paintEvent(QPaintEvent* /*event*/) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_color_bar.cpp"

@@ -139,3 +139,5 @@ void ConvergencePlot::fillTable() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_convergence_plot.cpp"

@@ -114,3 +114,5 @@ CropBox CropForm::box() const {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_crop_form.cpp"

@@ -86,3 +86,5 @@ Status FigureActions::save(const QString& path) const {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_figure_actions.cpp"

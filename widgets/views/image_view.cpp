@@ -253,3 +253,5 @@ QByteArray ImageView::cornersAsCsv() const {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_image_view.cpp"

@@ -77,3 +77,5 @@ void LargeText::paintEvent(QPaintEvent* /*event*/) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_large_text.cpp"

@@ -86,3 +86,5 @@ bool LassoMask::contains(double x, double y) const {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_lasso.cpp"

@@ -281,3 +281,5 @@ QByteArray PlotView::pdf() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_plot_view.cpp"

@@ -381,3 +381,5 @@ void RangePlot::drawSigma() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_response_plots.cpp"

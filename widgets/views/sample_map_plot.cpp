@@ -104,3 +104,5 @@ bool SampleMapPlot::isRefused(int id) const {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_sample_map_plot.cpp"

@@ -150,3 +150,5 @@ void ThresholdPlot::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_threshold_plot.cpp"

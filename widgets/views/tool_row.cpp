@@ -129,3 +129,5 @@ void ToolRow::addSeparator() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_tool_row.cpp"

@@ -236,3 +236,5 @@ void UncertaintyRangePlot::rebuild() {
 }
 
 }  // namespace lvcalib::widgets
+
+#include "moc_uncertainty_plots.cpp"
