@@ -121,7 +121,7 @@ struct Tally {
   int rigs = 0, right = 0, alias = 0, doubted = 0, missed = 0, wrong = 0, extra = 0;
   int inside = 0, parameters = 0, pose_inside = 0, pose_components = 0, not_worse = 0;
   int calm = 0, signature = 0, never_absent = 0;
-  int judged = 0, absent_and_off = 0, claimed = 0, mended = 0, at_floor = 0;
+  int judged = 0, absent_and_off = 0, absent_and_moves = 0, claimed = 0, mended = 0, at_floor = 0;
   std::vector<double> removed, heldout, before_mm, after_mm, before_mrad, after_mrad;
 
   void add(const EffectRecord& r) {
@@ -155,11 +155,10 @@ struct Tally {
     mended += r.had_unexplained && r.removed >= 0.9;
     if (r.heldout_over_floor > 0.0) heldout.push_back(r.heldout_over_floor);
     at_floor += r.heldout_over_floor > 0.0 && r.heldout_over_floor <= 1.05;
-    // The tolerance of model and verdict.
-    const bool off = r.after_mm > 0.5 || r.after_mrad > 0.2;
-    for (const auto& [id, verdict] : r.verdict) {
-      ++judged;
-      absent_and_off += off && verdict == "absent";
+    judged += static_cast<int>(r.verdict.size());
+    for (const auto& [id, moves] : r.absent_but_moves) {
+      absent_and_off += r.off;
+      absent_and_moves += moves;
     }
     claimed += r.claims_structure;
     before_mm.push_back(r.before_mm);
@@ -197,6 +196,11 @@ void row(const std::string& what, int hits, int count, const char* mark) {
 
 }  // namespace
 
+// The tolerance of model and verdict.
+bool is_off(const json& distance) {
+  return distance.at("mm") > 0.5 || distance.at("mrad") > 0.2;
+}
+
 EffectRecord read_record(const json& record) {
   EffectRecord out;
   out.set = record.at("set");
@@ -209,6 +213,12 @@ EffectRecord read_record(const json& record) {
   judge_signature(record, out);
   out.claims_structure = !record.at("unknown").empty();
   if (!out.planted.empty()) judge_channel(record, out);
+  out.off = is_off(record.at("extrinsic_after"));
+  const json moves = record.value("moves_of_absent", json::object());
+  for (const auto& [id, verdict] : out.verdict) {
+    if (verdict == "absent")
+      out.absent_but_moves[id] = moves.contains(id) ? is_off(moves.at(id)) : out.off;
+  }
   out.before_mm = record.at("extrinsic_before").at("mm");
   out.after_mm = record.at("extrinsic_after").at("mm");
   out.before_mrad = record.at("extrinsic_before").at("mrad");
@@ -242,8 +252,10 @@ void print_set_table(const std::vector<EffectRecord>& records) {
       nothing.rigs, "≤ 5 %");
   row("nothing hidden: structure claimed that no effect explains", nothing.claimed, nothing.rigs,
       "≤ 3 %");
+  row("planted and called absent while it moves the extrinsic by more than the tolerance",
+      everything.absent_and_moves, everything.judged, "0 of ≥ 300");
   row("planted and called absent while the extrinsic is off by more than the tolerance",
-      everything.absent_and_off, everything.judged, "0 of ≥ 300");
+      everything.absent_and_off, everything.judged, "–");
   row("one effect, ≥ 5σ, footprints aside: right effect or its alias group",
       strong.right + strong.alias, strong.rigs, "≥ 95 %");
   row("one effect: another selected instead", single.wrong, single.rigs, "≤ 5 %");

@@ -27,6 +27,9 @@ struct EffectRecord {
   std::vector<std::string> selected;
   std::map<std::string, Found> found;  ///< Of every planted effect of the catalogue.
   std::map<std::string, std::string> verdict;
+  /// Of planted effects that were called absent: whether it moves the final extrinsic by more than
+  /// the tolerance. Where the record does not say, whether that is off by more.
+  std::map<std::string, bool> absent_but_moves;
   std::map<std::string, double> attainable;  ///< Largest |true parameter|/σ, 0 if unknown.
   int inside = 0;                            ///< True parameters within ±1.96 σ …
   int parameters = 0;                        ///< … of so many.
@@ -36,9 +39,13 @@ struct EffectRecord {
   double removed = 0.0;          ///< Share of the unexplained RMS of the main channel that is gone.
   bool had_unexplained = false;  ///< There was some: half of the noise floor or more.
   double heldout_over_floor = 0.0;  ///< Of the main channel.
+  bool off = false;                 ///< The final extrinsic, by more than the tolerance.
   double before_mm = 0.0, after_mm = 0.0, before_mrad = 0.0, after_mrad = 0.0;
   int pose_inside = 0;  ///< Of six components of the final extrinsic, within ±1.96 σ.
 };
+
+/// Whether a recorded distance of extrinsics exceeds the tolerance of model and verdict.
+bool is_off(const nlohmann::json& distance);
 
 EffectRecord read_record(const nlohmann::json& record);
 

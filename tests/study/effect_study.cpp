@@ -100,32 +100,58 @@ json record_of(const EffectTask& task, const simulation::SimulatedRig& rig,
   return out;
 }
 
-json run_rig(const EffectTask& task, const std::filesystem::path& folder) {
-  json out = {{"set", name_of(task.set)}, {"seed", task.seed}, {"planted", task.planted}};
+struct SearchedRig {
+  simulation::SimulatedRig rig;
+  CalibrationResult result;
+  Discovery discovery;
+};
+
+// As the command does.
+Result<SearchedRig> search_rig(const EffectTask& task, const std::filesystem::path& folder) {
   RunContext one;
   one.threads = 1;
-  const auto rig = simulation::simulate(effect_rig_options(task), one);
-  if (!rig) {
-    out["error"] = rig.error().text();
-    return out;
-  }
-  const auto result = calibrate_rig(*rig, folder);
-  if (!result) {
-    out["error"] = result.error().text();
-    return out;
-  }
-  // As the command does.
+  auto rig = simulation::simulate(effect_rig_options(task), one);
+  if (!rig) return rig.error();
+  auto result = calibrate_rig(*rig, folder);
+  if (!result) return result.error();
   const auto explained = explain_refused_scenes(*result, {}, one);
-  if (explained && *explained) {
-    out.update(record_of(task, *rig, *result, (*explained)->discovery));
+  if (explained && *explained)
+    return SearchedRig{std::move(*rig), std::move(*result), (*explained)->discovery};
+  auto discovery = discover(*result, {}, one);
+  if (!discovery) return discovery.error();
+  return SearchedRig{std::move(*rig), std::move(*result), std::move(*discovery)};
+}
+
+// How far each planted effect that was called absent moves the final extrinsic: the same rig,
+// searched without it. Asked only where the extrinsic is off by more than the tolerance; else no
+// effect can be what took it there.
+json moves_of_absent(const EffectTask& task, const Discovery& d,
+                     const std::filesystem::path& folder) {
+  json out = json::object();
+  for (const auto& [id, value] : task.planted) {
+    const EffectFinding* f = finding_of(d, id);
+    if (f == nullptr || f->verdict != EffectVerdict::kAbsent) continue;
+    EffectTask without = task;
+    without.planted.erase(id);
+    const auto searched = search_rig(without, folder);
+    if (!searched) continue;
+    const ExtrinsicError e = compare_extrinsics({d.state.camera_from_lidar, d.covariance},
+                                                searched->discovery.state.camera_from_lidar);
+    out[id] = {{"mm", e.translation_mm}, {"mrad", e.rotation_mrad}};
+  }
+  return out;
+}
+
+json run_rig(const EffectTask& task, const std::filesystem::path& folder) {
+  json out = {{"set", name_of(task.set)}, {"seed", task.seed}, {"planted", task.planted}};
+  const auto searched = search_rig(task, folder);
+  if (!searched) {
+    out["error"] = searched.error().text();
     return out;
   }
-  const auto discovery = discover(*result, {}, one);
-  if (!discovery) {
-    out["error"] = discovery.error().text();
-    return out;
-  }
-  out.update(record_of(task, *rig, *result, *discovery));
+  out.update(record_of(task, searched->rig, searched->result, searched->discovery));
+  if (is_off(out["extrinsic_after"]))
+    out["moves_of_absent"] = moves_of_absent(task, searched->discovery, folder);
   return out;
 }
 
