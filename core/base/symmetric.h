@@ -6,8 +6,8 @@
 namespace lvcalib {
 
 // What is asked of covariances and information matrices. Eigen's solvers take a compiler seconds
-// for each size in each source, so that they are made for the sizes in use in one source only: 2,
-// 3, 6 and what is known at run time.
+// for each size in each source, so that one source has them, for the sizes that somebody asks for
+// (its last lines); another size does not link until it is added there.
 
 /// Eigenvalues in ascending order and, as columns in the same order, unit eigenvectors.
 template <int N>
@@ -16,8 +16,8 @@ struct SymmetricAxes {
   Eigen::Matrix<double, N, N> vectors;
 };
 
-/// Of a symmetric matrix, of which only the lower triangle is read. Not a number where that has an
-/// entry which is none.
+/// Eigenvalues and eigenvectors of a symmetric matrix by QR steps. Only its lower triangle is read;
+/// what holds a NaN gives NaN.
 template <int N>
 SymmetricAxes<N> axes_of(const Eigen::Matrix<double, N, N>& m);
 
@@ -29,14 +29,12 @@ Eigen::Matrix<double, N, N> without_negative_axes(const Eigen::Matrix<double, N,
 /// Standard deviation along the longest axis of a covariance.
 double largest_sigma(const Eigen::Matrix3d& covariance);
 
-/// Squared Mahalanobis distance xᵀ C⁻¹ x. Not a number, or anything, where C is not positive
-/// definite.
+/// Squared Mahalanobis distance xᵀ C⁻¹ x; meaningless where C is not positive definite.
 template <int N>
 double squared_mahalanobis(const Eigen::Matrix<double, N, 1>& x,
                            const Eigen::Matrix<double, N, N>& covariance);
 
-/// Inverse of a positive definite matrix by its factors LDLᵀ. Entries that are not numbers, or are
-/// anything, where it is not positive definite.
+/// Inverse of a positive definite matrix by its factors LDLᵀ; meaningless where it is none.
 template <int N>
 Eigen::Matrix<double, N, N> symmetric_inverse(const Eigen::Matrix<double, N, N>& m);
 

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-
+#include "base/symmetric.h"
 #include "base/units.h"
 #include "style/texts.h"
 
@@ -124,15 +123,14 @@ void BoardMapPlot::drawPath(const CenterPath& path, int index) {
 }
 
 void BoardMapPlot::drawEllipse(const CenterPath& path, const QPen& pen) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(path.covariance_m2);
-  const Eigen::Vector2d radii = 2.0 * axes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  const auto axes = axes_of(path.covariance_m2);
+  const Eigen::Vector2d radii = 2.0 * axes.values.cwiseMax(0.0).cwiseSqrt();
   auto* curve = new QCPCurve(xAxis, yAxis);
   curve->setPen(pen);
   for (int k = 0; k <= 48; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / 48;
     const Eigen::Vector2d on_ellipse =
-        axes.eigenvectors() *
-        Eigen::Vector2d(radii.x() * std::cos(angle), radii.y() * std::sin(angle));
+        axes.vectors * Eigen::Vector2d(radii.x() * std::cos(angle), radii.y() * std::sin(angle));
     const Eigen::Vector2d p = kMmPerM * (path.board_m + enlargement_ * (path.final_m + on_ellipse));
     curve->addData(p.x(), p.y());
   }

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-
 #include "base/statistics.h"
+#include "base/symmetric.h"
 #include "base/units.h"
 #include "response/response_curves.h"
 #include "style/texts.h"
@@ -299,16 +298,15 @@ void AnglePlot::rebuild() {
 
 void AnglePlot::drawEllipse(const Eigen::Matrix2d& covariance_rad2, double sigmas,
                             const QPen& pen) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance_rad2);
-  const Eigen::Vector2d radii = sigmas * axes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  const auto axes = axes_of(covariance_rad2);
+  const Eigen::Vector2d radii = sigmas * axes.values.cwiseMax(0.0).cwiseSqrt();
   const Eigen::Vector2d center = scope_.statistics->mean.head<2>();
   auto* curve = new QCPCurve(xAxis, yAxis);
   curve->setPen(pen);
   for (int k = 0; k <= 72; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / 72;
-    const Eigen::Vector2d p =
-        center + axes.eigenvectors() *
-                     Eigen::Vector2d(radii.x() * std::cos(angle), radii.y() * std::sin(angle));
+    const Eigen::Vector2d p = center + axes.vectors * Eigen::Vector2d(radii.x() * std::cos(angle),
+                                                                      radii.y() * std::sin(angle));
     curve->addData(kDegPerRad * p.y(), kDegPerRad * p.x());
   }
 }
