@@ -79,6 +79,29 @@ TEST_F(PatternMatchTest, FindsAPosePlantedInNoise) {
   }
 }
 
+// So few that none is left out: those at the corners, which lie in all directions, count as well.
+TEST_F(PatternMatchTest, EverySampleWithinTheOutlineCounts) {
+  for (int k = 0; k < 16; ++k) {
+    const PlanarPose truth{22.5 * k * kDegree, {0.013 * k - 0.1, 0.3 - 0.037 * k}};
+    const auto samples = printed_samples(target_, truth, 1.0, 1.0, 3000, random_);
+    PatternSearchRange range;
+    range.center_m = truth.center_m;
+    range.slack_m = 0.0;
+    range.angles_rad = {truth.angle_rad};
+    const auto found = search_pattern(samples, coarse_, center_, range, {});
+    ASSERT_EQ(found.size(), 1U);
+    int inside = 0;
+    for (const PlanarSample& sample : samples) {
+      const Eigen::Vector2d local =
+          Eigen::Rotation2Dd(-truth.angle_rad) * (sample.uv_m.cast<double>() - truth.center_m);
+      inside += coarse_.at(center_ + local).inside ? 1 : 0;
+    }
+    EXPECT_GT(inside, 400);
+    // On the border itself rounding decides.
+    EXPECT_NEAR(found[0].inside, inside, 2) << k;
+  }
+}
+
 TEST_F(PatternMatchTest, MeasuresThePatternsSize) {
   for (const double scale : {0.985, 0.995, 1.01}) {
     const PlanarPose truth{0.4, {0.0, 0.01}};
