@@ -20,7 +20,7 @@ namespace {
 // each cell of a grid over four and a half widths.
 double white_share(const Target& target, const Eigen::Vector2d& at, const Eigen::Matrix2d& root,
                    double growth) {
-  constexpr int kSide = 301;
+  constexpr int kSide = 121;
   constexpr int kRim = 32;
   Random random(7);
   double sum = 0.0;
