@@ -11,6 +11,8 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <utility>
 
@@ -209,6 +211,7 @@ void RefinementPage::showEvent(QShowEvent* event) {
 
 void RefinementPage::showResult() {
   refused_.clear();
+  shown_edits_ = {};
   if (!result_ || scene_ < 0 || scene_ >= static_cast<int>(result_->scenes.size())) {
     display(nullptr, nullptr, tr("Choose a scene and run the calibration to see its refinement."));
     return;
@@ -226,6 +229,7 @@ void RefinementPage::showResult() {
     return;
   }
   refused_ = refusedCircles();
+  shown_edits_ = scene.edits;
   display({result_, &*scene.refinement}, {result_, &scene.board_points}, {});
 }
 
@@ -236,7 +240,7 @@ std::map<int, RefinementPage::Refused> RefinementPage::refusedCircles() const {
     if (refusal.scene == scene.name && refusal.what == Refusal::What::kCircle)
       out[refusal.id] = {core_text(refusal.reason), refusal.can_be_used};
   }
-  for (const int id : scene.edits.circles) out[id] = {tr("left out by hand"), false};
+  for (const int id : scene.edits.circles) out[id] = {tr("left out by hand"), false, true};
   return out;
 }
 
@@ -328,6 +332,7 @@ void RefinementPage::showIteration(int scene, std::shared_ptr<const BoardRefinem
   if (live_points_ && live_points_scene_ == scene) points = live_points_;
   player_.stop();
   refused_.clear();
+  shown_edits_ = edits_;
   display(std::move(partial), std::move(points), {});
 }
 
@@ -347,8 +352,12 @@ void RefinementPage::display(std::shared_ptr<const BoardRefinement> refinement,
     reach_m_ = std::min(window.inside_m, window.outside_m);
   }
   std::set<int> refused;
-  for (const auto& entry : refused_) refused.insert(entry.first);
-  map_->setRefused(std::move(refused));
+  std::set<int> by_hand;
+  for (const auto& [id, entry] : refused_) {
+    refused.insert(id);
+    if (entry.by_hand) by_hand.insert(id);
+  }
+  map_->setRefused(std::move(refused), std::move(by_hand));
   map_->setPaths(refinement_ ? center_paths(*refinement_) : std::vector<CenterPath>());
   convergence_->setHistory(refinement_ ? refinement_->history : std::vector<IterationRecord>());
   updateReplay();
@@ -432,11 +441,12 @@ QString RefinementPage::nodeTitle(int id, bool narrow) const {
   if (node == nullptr) return tr("node %1").arg(id);
   // Nine plots side by side have no room for more.
   if (narrow) {
-    if (refused_.contains(id) && node->valid) return tr("%1: left out").arg(id);
+    if (isByHand(id) || (refused_.contains(id) && node->valid)) return tr("%1: left out").arg(id);
     return node->valid
                ? tr("%1: %2 mm").arg(id).arg(kMmPerM * node->wave_m.head<2>().norm(), 0, 'f', 2)
                : tr("%1: not usable").arg(id);
   }
+  if (isByHand(id)) return tr("node %1: left out by hand").arg(id);
   if (!node->valid) return tr("node %1: not usable").arg(id);
   return tr("node %1: |Δc| %2 mm").arg(id).arg(kMmPerM * node->wave_m.head<2>().norm(), 0, 'f', 2);
 }
@@ -445,9 +455,9 @@ void RefinementPage::updatePlots() {
   const std::vector<TargetNode> nodes = target_.nodes();
   for (std::size_t k = 0; k < plots_.size() && k < nodes.size(); ++k) {
     plots_[k]->setTitle(nodeTitle(nodes[k].id, true));
-    plots_[k]->setRefused(refused_.contains(nodes[k].id));
+    plots_[k]->setRefused(refused_.contains(nodes[k].id), isByHand(nodes[k].id));
     if (const NodeRecord* node = record(nodes[k].id)) {
-      plots_[k]->setData({*node, sampler_.around(node->center_uv_m), intensity_, reach_m_});
+      showRecord(*plots_[k], *node);
     } else {
       plots_[k]->clear(refinement_ ? tr("no data") : QString());
     }
@@ -466,13 +476,49 @@ void RefinementPage::updatePlots() {
   updateDetail();
 }
 
+void RefinementPage::showRecord(AngleDistancePlot& plot, const NodeRecord& record) const {
+  plot.setData(
+      {record, sampler_.around(record.center_uv_m), intensity_, reach_m_, binsByHand(record)});
+}
+
+bool RefinementPage::isByHand(int circle) const {
+  const auto found = refused_.find(circle);
+  return found != refused_.end() && found->second.by_hand;
+}
+
+// Without their returns the refinement finds such bins as empty as those that the LiDAR missed.
+std::vector<bool> RefinementPage::binsByHand(const NodeRecord& record) const {
+  std::vector<bool> out(record.bins.size(), false);
+  SceneEdits edits = shown_edits_;
+  edits.points_m.clear();
+  if (edits.empty() || !target_.has_circles()) return out;
+  const double radius_m = node_window(target_).radius_m;
+  // Before any board: only where on it the edge lies is asked.
+  Rigid3 front;
+  front.translation = Eigen::Vector3d::UnitZ();
+  Cloud edge;
+  for (const TargetNode& node : target_.nodes()) {
+    if (node.id != record.id) continue;
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(out.size());
+      const double angle = (2.0 * share - 1.0) * std::numbers::pi;
+      const Eigen::Vector2d p =
+          node.center_m + radius_m * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      edge.points_m.emplace_back(Eigen::Vector3d(p.x(), p.y(), 1.0).cast<float>());
+    }
+  }
+  for (const std::uint32_t k : left_out_points(edge, edits, target_, front))
+    out[k] = record.bins[k].state != BinState::kUsed;
+  return out;
+}
+
 void RefinementPage::updateDetail() {
   const NodeRecord* node = record(chosen_);
   large_->setChosenBin(-1);
   large_->setTitle(node != nullptr ? nodeTitle(chosen_) : QString());
-  large_->setRefused(node != nullptr && refused_.contains(chosen_));
+  large_->setRefused(node != nullptr && refused_.contains(chosen_), isByHand(chosen_));
   if (node != nullptr) {
-    large_->setData({*node, sampler_.around(node->center_uv_m), intensity_, reach_m_});
+    showRecord(*large_, *node);
   } else {
     large_->clear(message_.isEmpty() ? tr("no data") : QString());
   }
@@ -486,6 +532,9 @@ void RefinementPage::updateDetail() {
   const auto used = std::count_if(node->bins.begin(), node->bins.end(),
                                   [](const BinRecord& b) { return b.state == BinState::kUsed; });
   QString text = tr("%1 of %2 bins used").arg(used).arg(node->bins.size());
+  const std::vector<bool> by_hand = binsByHand(*node);
+  if (const auto out = std::count(by_hand.begin(), by_hand.end(), true); out > 0)
+    text += tr("; left out by hand: %1").arg(out);
   if (node->valid) {
     const Eigen::Vector3d wave = kMmPerM * node->wave_m;
     text += tr("; Δcu %1, Δcv %2, Δr %3 mm")
@@ -495,12 +544,12 @@ void RefinementPage::updateDetail() {
     text += tr("; levels %1 and %2")
                 .arg(node->inner_level, 0, 'f', 0)
                 .arg(node->outer_level, 0, 'f', 0);
-  } else {
+  } else if (!isByHand(chosen_)) {
     text += tr("; not usable: %1").arg(core_text(node->reason));
   }
   text = text.toHtmlEscaped();
   const auto refused = refused_.find(chosen_);
-  if (refused != refused_.end() && node->valid) {
+  if (refused != refused_.end() && (node->valid || refused->second.by_hand)) {
     text = QStringLiteral("<b>%1</b> %2")
                .arg(tr("Left out: %1.").arg(refused->second.reason).toHtmlEscaped(), text);
     if (refused->second.can_be_used)
@@ -519,18 +568,22 @@ void RefinementPage::fillBins(const NodeRecord* record) {
   for (int column = 0; column < 4; ++column)
     header->setSectionResizeMode(column, QHeaderView::Fixed);
   const QColor refused = state_colors(palette()).bad;
+  const QColor left_out = PlotColors::of(palette()).left_out;
+  const std::vector<bool> by_hand = binsByHand(*record);
   for (int row = 0; row < bins_->rowCount(); ++row) {
     const BinRecord& bin = record->bins[static_cast<std::size_t>(row)];
     const bool has_midpoint = bin.sigma_m > 0.0;
+    const bool out = by_hand[static_cast<std::size_t>(row)];
     const QStringList cells{
         QString::number(kDegPerRad * bin.angle_rad, 'f', 1),
         has_midpoint ? QString::number(kMmPerM * bin.midpoint_m, 'f', 3) : QString("–"),
         has_midpoint ? QString::number(kMmPerM * bin.sigma_m, 'f', 3) : QString("–"),
-        QString::number(bin.samples), core_text(describe(bin.state))};
+        QString::number(bin.samples),
+        out ? tr("left out by hand") : core_text(describe(bin.state))};
     for (int column = 0; column < cells.size(); ++column) {
       auto* item = new QTableWidgetItem(cells[column]);
       if (column < 4) item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-      if (bin.state != BinState::kUsed) item->setForeground(refused);
+      if (bin.state != BinState::kUsed) item->setForeground(out ? left_out : refused);
       bins_->setItem(row, column, item);
     }
   }

@@ -68,6 +68,7 @@ class RefinementPage : public QWidget {
   struct Refused {
     QString reason;
     bool can_be_used = false;
+    bool by_hand = false;
   };
   QWidget* createDetail();
   QWidget* createDecisions();
@@ -82,6 +83,10 @@ class RefinementPage : public QWidget {
   void updatePlots();
   void updateDetail();
   void fillBins(const NodeRecord* record);
+  void showRecord(AngleDistancePlot& plot, const NodeRecord& record) const;
+  /// Of each bin: not used, and left out by hand in what is shown.
+  [[nodiscard]] std::vector<bool> binsByHand(const NodeRecord& record) const;
+  [[nodiscard]] bool isByHand(int circle) const;
   void updateDecisions();
   void excludeBins();
   void takeBack();
@@ -110,6 +115,7 @@ class RefinementPage : public QWidget {
   QString message_;
   std::map<int, Refused> refused_;  // None while it runs.
   SceneEdits edits_;
+  SceneEdits shown_edits_;  // With which the refinement shown was made.
 
   QTimer player_;
   QWidget* grid_ = nullptr;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/units.h"
 #include "style/swatch.h"
@@ -39,7 +40,8 @@ void AngleDistancePlot::retranslate() {
       tr("Signed distance from the circle (mm, outside positive) against the polar angle "
          "(degrees). Dots: LiDAR samples coloured by intensity. Marks: where the intensity "
          "crosses its middle level in each angular bin, ±1σ. Line: the fitted wave "
-         "Δcu·cos ψ + Δcv·sin ψ + Δr. Shaded: refused bins."));
+         "Δcu·cos ψ + Δcv·sin ψ + Δr. Shaded: refused bins; violet and hatched: bins left out by "
+         "hand."));
 }
 
 void AngleDistancePlot::setCompact(bool compact) {
@@ -63,10 +65,19 @@ void AngleDistancePlot::setTitle(const QString& title) {
   rebuild();
 }
 
-void AngleDistancePlot::setRefused(bool refused) {
-  if (refused == refused_) return;
+void AngleDistancePlot::setRefused(bool refused, bool by_hand) {
+  if (refused == refused_ && by_hand == by_hand_) return;
   refused_ = refused;
+  by_hand_ = by_hand;
   rebuild();
+}
+
+bool AngleDistancePlot::isByHand(std::size_t bin) const {
+  return bin < data_.by_hand.size() && data_.by_hand[bin];
+}
+
+QColor AngleDistancePlot::refusalColor() const {
+  return by_hand_ ? colors().left_out : colors().refused;
 }
 
 void AngleDistancePlot::setData(AngleDistanceData data) {
@@ -115,17 +126,25 @@ void AngleDistancePlot::drawBands() {
     const bool refused = data_.record.bins[k].state != BinState::kUsed;
     const bool chosen = static_cast<int>(k) == chosen_bin_;
     if (!refused && !chosen) continue;
-    auto* band = new QCPItemRect(this);
-    band->setLayer("bands");
-    QColor color = chosen ? colors().emphasis : colors().refused;
+    QColor color = chosen ? colors().emphasis : isByHand(k) ? colors().left_out : colors().refused;
     color.setAlpha(chosen ? 70 : 38);
-    band->setPen(Qt::NoPen);
-    band->setBrush(color);
-    band->topLeft->setTypeY(QCPItemPosition::ptAxisRectRatio);
-    band->bottomRight->setTypeY(QCPItemPosition::ptAxisRectRatio);
-    band->topLeft->setCoords(-180.0 + width * static_cast<double>(k), 0.0);
-    band->bottomRight->setCoords(-180.0 + width * static_cast<double>(k + 1), 1.0);
+    drawBand(k, width, color);
+    if (!isByHand(k)) continue;
+    QColor line = colors().left_out;
+    line.setAlpha(130);
+    drawBand(k, width, hatched(line));
   }
+}
+
+void AngleDistancePlot::drawBand(std::size_t bin, double width_deg, const QBrush& brush) {
+  auto* band = new QCPItemRect(this);
+  band->setLayer("bands");
+  band->setPen(Qt::NoPen);
+  band->setBrush(brush);
+  band->topLeft->setTypeY(QCPItemPosition::ptAxisRectRatio);
+  band->bottomRight->setTypeY(QCPItemPosition::ptAxisRectRatio);
+  band->topLeft->setCoords(-180.0 + width_deg * static_cast<double>(bin), 0.0);
+  band->bottomRight->setCoords(-180.0 + width_deg * static_cast<double>(bin + 1), 1.0);
 }
 
 void AngleDistancePlot::drawSamples() {
@@ -179,24 +198,29 @@ void AngleDistancePlot::drawWave() {
 void AngleDistancePlot::drawBins() {
   QCPGraph* used = addGraph();
   QCPGraph* refused = addGraph();
-  for (const BinRecord& bin : data_.record.bins) {
+  QCPGraph* by_hand = addGraph();
+  for (std::size_t k = 0; k < data_.record.bins.size(); ++k) {
+    const BinRecord& bin = data_.record.bins[k];
+    QCPGraph* unused = isByHand(k) ? by_hand : refused;
     const bool has_midpoint = bin.state == BinState::kUsed || bin.state == BinState::kOutlier ||
                               bin.state == BinState::kWeakContrast;
     if (has_midpoint) {
-      (bin.state == BinState::kUsed ? used : refused)
+      (bin.state == BinState::kUsed ? used : unused)
           ->addData(kDegPerRad * bin.angle_rad, kMmPerM * bin.midpoint_m);
     } else {
       // No midpoint: a cross on the zero line says that the bin was looked at.
-      refused->addData(kDegPerRad * bin.angle_rad, 0.0);
+      unused->addData(kDegPerRad * bin.angle_rad, 0.0);
     }
   }
   const double size = compact_ ? 4 : 7;
   used->setLineStyle(QCPGraph::lsNone);
   used->setScatterStyle(
       {QCPScatterStyle::ssCircle, QPen(colors().mark), colors().background, size});
-  refused->setLineStyle(QCPGraph::lsNone);
-  refused->setScatterStyle(
-      {QCPScatterStyle::ssCross, QPen(colors().refused, 1.5), Qt::NoBrush, size + 1});
+  for (const auto& [graph, color] :
+       {std::pair(refused, colors().refused), std::pair(by_hand, colors().left_out)}) {
+    graph->setLineStyle(QCPGraph::lsNone);
+    graph->setScatterStyle({QCPScatterStyle::ssCross, QPen(color, 1.5), Qt::NoBrush, size + 1});
+  }
   auto* bars = new QCPErrorBars(xAxis, yAxis);
   bars->setDataPlottable(used);
   bars->setPen(QPen(colors().mark));
@@ -212,10 +236,14 @@ void AngleDistancePlot::explain() {
   const auto tone = [&](double share) {
     return QColor::fromRgb(map_color(data_.intensity.map, share));
   };
-  showLegend({{Sign::kDot, tone(colors().dark ? 0.22 : 0.0), tr("dark sample")},
-              {Sign::kDot, tone(colors().dark ? 1.0 : 0.92), tr("bright sample")},
-              {Sign::kMark, colors().mark, tr("edge in a bin, ±1σ")},
-              {Sign::kLine, colors().fit, tr("fitted wave")}});
+  std::vector<LegendEntry> entries = {
+      {Sign::kDot, tone(colors().dark ? 0.22 : 0.0), tr("dark sample")},
+      {Sign::kDot, tone(colors().dark ? 1.0 : 0.92), tr("bright sample")},
+      {Sign::kMark, colors().mark, tr("edge in a bin, ±1σ")},
+      {Sign::kLine, colors().fit, tr("fitted wave")}};
+  if (std::find(data_.by_hand.begin(), data_.by_hand.end(), true) != data_.by_hand.end())
+    entries.push_back({Sign::kBox, colors().left_out, tr("left out by hand")});
+  showLegend(std::move(entries));
 }
 
 // Hatched and crossed out, as circles that are not used are in the image.
@@ -225,7 +253,7 @@ void AngleDistancePlot::drawRefusal() {
     position->setType(QCPItemPosition::ptAxisRectRatio);
     position->setCoords(x, y);
   };
-  QColor pale = colors().refused;
+  QColor pale = refusalColor();
   pale.setAlpha(90);
   auto* hatch = new QCPItemRect(this);
   ratio(hatch->topLeft, 0.0, 0.0);
@@ -236,7 +264,7 @@ void AngleDistancePlot::drawRefusal() {
     auto* line = new QCPItemLine(this);
     ratio(line->start, 0.0, down ? 0.0 : 1.0);
     ratio(line->end, 1.0, down ? 1.0 : 0.0);
-    line->setPen(QPen(colors().refused, 1.6));
+    line->setPen(QPen(refusalColor(), 1.6));
   }
 }
 
@@ -252,7 +280,7 @@ void AngleDistancePlot::drawLabel() {
   ground.setAlpha(215);
   label->setBrush(ground);
   const bool fine = !refused_ && (data_.record.valid || data_.record.bins.empty());
-  label->setColor(fine ? colors().text : colors().refused);
+  label->setColor(fine ? colors().text : refusalColor());
   QFont bold = font();
   bold.setBold(true);
   label->setFont(bold);
@@ -260,13 +288,14 @@ void AngleDistancePlot::drawLabel() {
 
 std::vector<QStringList> AngleDistancePlot::tableRows() const {
   std::vector<QStringList> rows;
-  for (const BinRecord& bin : data_.record.bins) {
+  for (std::size_t k = 0; k < data_.record.bins.size(); ++k) {
+    const BinRecord& bin = data_.record.bins[k];
     rows.push_back({QString("bin"),
                     csv_number(kDegPerRad * bin.angle_rad),
                     csv_number(kMmPerM * bin.midpoint_m),
                     csv_number(kMmPerM * bin.sigma_m),
                     QString::number(bin.samples),
-                    core_text(describe(bin.state)),
+                    isByHand(k) ? tr("left out by hand") : core_text(describe(bin.state)),
                     {}});
   }
   for (const NodeSample& s : data_.samples) {

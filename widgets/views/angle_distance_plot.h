@@ -16,11 +16,13 @@ struct AngleDistanceData {
   std::vector<NodeSample> samples;  ///< About record.center_uv_m; may be empty.
   ColorScale intensity;             ///< Colours of the samples, common to all nodes.
   double reach_m = 0.02;            ///< Half height of the plot.
+  /// Of each bin of the record, or empty: its returns are left out by hand.
+  std::vector<bool> by_hand = {};
 };
 
 /// Polar angle (degrees) against signed distance from the circle (mm): samples coloured by
 /// intensity, bin midpoints with error bars, refused bins shaded and crossed, the fitted
-/// first-order wave and the zero line.
+/// first-order wave and the zero line; what is left out by hand is violet.
 class AngleDistancePlot : public PlotView {
   Q_OBJECT
 
@@ -32,8 +34,8 @@ class AngleDistancePlot : public PlotView {
   void setTitle(const QString& title);
   void setData(AngleDistanceData data);
   void clear(const QString& message);
-  /// Strikes the plot through: its circle is not used.
-  void setRefused(bool refused);
+  /// Strikes the plot through: its circle is not used, perhaps because the user does not want it.
+  void setRefused(bool refused, bool by_hand = false);
   [[nodiscard]] bool isRefused() const { return refused_; }
   /// Emphasises one bin; −1: none.
   void setChosenBin(int bin);
@@ -47,7 +49,10 @@ class AngleDistancePlot : public PlotView {
   static constexpr std::size_t kSmallSamples = 900;
 
   void retranslate();
+  [[nodiscard]] bool isByHand(std::size_t bin) const;
+  [[nodiscard]] QColor refusalColor() const;
   void drawBands();
+  void drawBand(std::size_t bin, double width_deg, const QBrush& brush);
   void drawSamples();
   void drawWave();
   void drawBins();
@@ -61,6 +66,7 @@ class AngleDistancePlot : public PlotView {
   QString message_;
   bool compact_ = false;
   bool refused_ = false;
+  bool by_hand_ = false;
   int chosen_bin_ = -1;
 };
 

@@ -59,8 +59,9 @@ void BoardMapPlot::setChosenNode(int id) {
   rebuild();
 }
 
-void BoardMapPlot::setRefused(std::set<int> ids) {
+void BoardMapPlot::setRefused(std::set<int> ids, std::set<int> by_hand) {
   refused_ = std::move(ids);
+  by_hand_ = std::move(by_hand);
   rebuild();
 }
 
@@ -94,9 +95,9 @@ void BoardMapPlot::drawPath(const CenterPath& path, int index) {
   model->setLineStyle(QCPGraph::lsNone);
   model->setScatterStyle({QCPScatterStyle::ssCross, QPen(colors().zero), Qt::NoBrush, 7});
   model->addData(kMmPerM * path.board_m.x(), kMmPerM * path.board_m.y());
+  const QColor unused = by_hand_.contains(path.id) ? colors().left_out : colors().refused;
   if (!path.valid) {
-    model->setScatterStyle(
-        {QCPScatterStyle::ssCrossCircle, QPen(colors().refused, 1.5), Qt::NoBrush, 11});
+    model->setScatterStyle({QCPScatterStyle::ssCrossCircle, QPen(unused, 1.5), Qt::NoBrush, 11});
     return;
   }
   const int last = iteration_ < 0 ? static_cast<int>(path.predicted_m.size()) - 1 : iteration_;
@@ -117,8 +118,7 @@ void BoardMapPlot::drawPath(const CenterPath& path, int index) {
   if (!refused_.contains(path.id)) return;
   auto* cross = addGraph();
   cross->setLineStyle(QCPGraph::lsNone);
-  cross->setScatterStyle(
-      {QCPScatterStyle::ssCrossCircle, QPen(colors().refused, 1.8), Qt::NoBrush, 16});
+  cross->setScatterStyle({QCPScatterStyle::ssCrossCircle, QPen(unused, 1.8), Qt::NoBrush, 16});
   cross->addData(kMmPerM * path.board_m.x(), kMmPerM * path.board_m.y());
 }
 

@@ -22,7 +22,7 @@ class BoardMapPlot : public BoardFigure {
   void setIteration(int iteration);
   void setChosenNode(int id);
   /// Nodes that are not used though they were refined: drawn crossed out.
-  void setRefused(std::set<int> ids);
+  void setRefused(std::set<int> ids, std::set<int> by_hand = {});
 
   /// How much larger than life the paths are drawn: 1, 2 or 5 times a power of ten, so that the
   /// longest is at most 0.4 tag pitches long.
@@ -46,6 +46,7 @@ class BoardMapPlot : public BoardFigure {
   int iteration_ = -1;
   int chosen_ = -1;
   std::set<int> refused_;
+  std::set<int> by_hand_;
   double enlargement_ = 1.0;
 };
 

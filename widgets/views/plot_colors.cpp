@@ -30,6 +30,7 @@ PlotColors PlotColors::of(const QPalette& palette) {
   c.fit = c.dark ? QColor(255, 176, 64) : QColor(208, 88, 0);
   c.mark = mixed(0.92);
   c.refused = c.dark ? QColor(255, 110, 110) : QColor(196, 30, 58);
+  c.left_out = c.dark ? QColor(196, 130, 255) : QColor(134, 58, 204);
   c.fill = c.dark ? QColor(84, 132, 196) : QColor(122, 168, 222);
   c.emphasis = c.dark ? QColor(120, 200, 255) : QColor(0, 90, 190);
   return c;

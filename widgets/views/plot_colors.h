@@ -16,6 +16,7 @@ struct PlotColors {
   QColor fit;       ///< Fitted curves.
   QColor mark;      ///< Measured marks and their error bars.
   QColor refused;   ///< What was left out, and why to look at it.
+  QColor left_out;  ///< What the user left out by hand.
   QColor fill;      ///< Areas: boxes and bars.
   QColor emphasis;  ///< The chosen one.
   bool dark = false;

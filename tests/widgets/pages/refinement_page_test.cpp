@@ -7,6 +7,8 @@
 #include <QTableWidget>
 #include <QTest>
 #include <QToolButton>
+#include <algorithm>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -136,6 +138,66 @@ TEST_F(RefinementPageTest, BinsAndCirclesAreExcludedAndTakenBack) {
   page_.chooseNode(4);
   EXPECT_FALSE(button("take-back-circle")->isEnabled());
   EXPECT_TRUE(button("exclude-circle")->isEnabled());
+}
+
+// Nobody but the user refused them, whatever the refinement finds in their place.
+TEST_F(RefinementPageTest, BinsLeftOutByHandAreNotCalledRefused) {
+  auto changed = std::make_shared<CalibrationResult>(*demo_.result);
+  SceneResult& scene = changed->scenes[0];
+  NodeRecord& node = scene.refinement->history.back().nodes[2];
+  const double width_rad = 2.0 * std::numbers::pi / static_cast<double>(node.bins.size());
+  for (const int bin : {1, 2, 4}) {
+    if (bin != 4)
+      scene.edits.patches_m.push_back(ring_patch(changed->target, node.id,
+                                                 -std::numbers::pi + bin * width_rad,
+                                                 -std::numbers::pi + (bin + 1) * width_rad));
+    node.bins[static_cast<std::size_t>(bin)].state = BinState::kTooFewSamples;
+  }
+  page_.setResult(changed);
+  page_.setScene(0);
+  page_.chooseNode(node.id);
+  const AngleDistancePlot* large = page_.findChild<AngleDistancePlot*>("large-plot");
+  std::vector<bool> by_hand(node.bins.size(), false);
+  by_hand[1] = by_hand[2] = true;
+  EXPECT_EQ(large->data().by_hand, by_hand);
+  EXPECT_EQ(plot(node.id)->data().by_hand, by_hand);
+  EXPECT_EQ(std::count(plot(3)->data().by_hand.begin(), plot(3)->data().by_hand.end(), true), 0);
+  for (const int bin : {1, 2}) EXPECT_EQ(bins()->item(bin, 4)->text(), "left out by hand");
+  EXPECT_EQ(bins()->item(4, 4)->text().toStdString(), describe(BinState::kTooFewSamples).text());
+  EXPECT_NE(bins()->item(1, 4)->foreground().color(), bins()->item(4, 4)->foreground().color());
+  EXPECT_TRUE(large->csv().contains("left out by hand"));
+  EXPECT_TRUE(page_.findChild<QLabel*>("node-verdict")->text().contains("left out by hand: 2"));
+  // Violet ground and a hatch on it, where a refused bin has its ground alone.
+  int violet = 0;
+  int red = 0;
+  for (const auto* band :
+       page_.findChild<AngleDistancePlot*>("large-plot")->findChildren<QCPItemRect*>()) {
+    QColor color = band->brush().color();
+    color.setAlpha(255);
+    violet += color == large->colors().left_out;
+    red += color == large->colors().refused;
+  }
+  EXPECT_EQ(violet, 2);
+  EXPECT_EQ(red, 1);
+}
+
+// As a run leaves it: without its returns the circle cannot be used either.
+TEST_F(RefinementPageTest, ACircleLeftOutByHandIsNotCalledUnusable) {
+  auto changed = std::make_shared<CalibrationResult>(*demo_.result);
+  SceneResult& scene = changed->scenes[0];
+  scene.edits.circles = {4};
+  NodeRecord& node = scene.refinement->history.back().nodes[4];
+  node.valid = false;
+  node.reason = Message("too few usable bins around the circle");
+  for (BinRecord& bin : node.bins) bin.state = BinState::kTooFewSamples;
+  page_.setResult(changed);
+  page_.setScene(0);
+  page_.chooseNode(4);
+  EXPECT_TRUE(plot(4)->isRefused());
+  const QString verdict = page_.findChild<QLabel*>("node-verdict")->text();
+  EXPECT_TRUE(verdict.contains("left out by hand")) << verdict.toStdString();
+  EXPECT_FALSE(verdict.contains("not usable")) << verdict.toStdString();
+  EXPECT_EQ(bins()->item(0, 4)->text(), "left out by hand");
 }
 
 TEST_F(RefinementPageTest, RefusedBinsTellWhy) {
