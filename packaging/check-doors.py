@@ -86,7 +86,7 @@ TESTED_BY = {
     "core/report": {
         "boundary_export": "exports", "evidence_json": "result_file", "export_input": "exports",
         "model_section": "html_report", "report_sections": "html_report",
-        "response_section": "html_report", "scene_section": "html_report"},
+        "response_section": "html_report", "result_inputs": "cli/evidence_command", "scene_section": "html_report"},
     "core/selection": {
         "contradictions": "effect_search", "print_contrast": "effect_search"},
     "core/solve": {

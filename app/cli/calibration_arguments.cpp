@@ -108,7 +108,12 @@ void add_calibration_arguments(CLI::App& command, CalibrationArguments& argument
 }
 
 Result<CalibrationResult> run_calibration(const CalibrationArguments& arguments, Session& session) {
-  if (Status s = check_output(arguments.output, {}); !s) return s.error();
+  // What this command and `discover` write there.
+  for (const char* name : {"result.yaml", "result.json", "discovery.json"}) {
+    const std::filesystem::path file = std::filesystem::path(arguments.output) / name;
+    if (Status s = check_output(file.string(), {arguments.rough, arguments.config}); !s)
+      return s.error();
+  }
   for (const std::string& name : {arguments.frames.lidar, arguments.frames.camera}) {
     if (Status s = check_frame_name(name); !s) return s.error();
   }

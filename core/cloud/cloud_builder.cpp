@@ -9,6 +9,10 @@
 namespace lvcalib {
 namespace {
 
+// What a tenth of the points adds to standard deviations is a twentieth of them: less is no loss
+// that anybody would see.
+constexpr std::uint64_t kWorthTelling = 10;
+
 constexpr double kLongestScan_s = 60.0;
 constexpr double kShortestScan_s = 1e-3;
 constexpr double kYear2000_s = 946'684'800.0;
@@ -60,6 +64,7 @@ void CloudBuilder::append_small(const char* block, std::size_t first, std::size_
   decode_floats(block, field(kY), swap, count, y_.data());
   decode_floats(block, field(kZ), swap, count, z_.data());
   const std::size_t kept = choose_points(seen_ + first, count);
+  note_zeros(block, first, count);
   if (kept == 0) return;
   const bool all = kept == count;
 
@@ -102,6 +107,25 @@ std::size_t CloudBuilder::choose_points(std::uint64_t before, std::size_t count)
   }
   cloud_.dropped += count - kept;
   return kept;
+}
+
+// Counts blocks in a row that are nothing but zero bytes: what a disk that was full or a download
+// that broke off puts in place of points. Where a beam met nothing its time or line is there.
+void CloudBuilder::note_zeros(const char* block, std::size_t first, std::size_t count) {
+  const auto is_zero = [&](const std::optional<FieldLayout>& field) {
+    if (!field) return true;
+    for (std::size_t k = first; k < first + count; ++k) {
+      const char* at = block + field->offset + k * field->stride;
+      if (!std::all_of(at, at + scalar_size(field->type), [](char c) { return c == 0; }))
+        return false;
+    }
+    return true;
+  };
+  const bool zeros = std::all_of(layout_.fields.begin(), layout_.fields.end(), is_zero);
+  zeros_ = zeros ? zeros_ + count : 0;
+  if (zeros_ <= most_zeros_) return;
+  most_zeros_ = zeros_;
+  zeros_end_ = seen_ + first + count;
 }
 
 void CloudBuilder::append_times(const char* block, std::size_t first, std::size_t count,
@@ -185,9 +209,6 @@ bool CloudBuilder::is_return(std::size_t i) const {
 // Whether the returns end long before the file, as where a recording was cut off and its file had
 // been given its length before, and not as this LiDAR misses elsewhere.
 bool CloudBuilder::is_cut_off(std::uint64_t rows) const {
-  // What a tenth of the points adds to standard deviations is a twentieth of them: less is no loss
-  // that anybody would see.
-  constexpr std::uint64_t kWorthTelling = 10;
   const std::uint64_t tail = seen_ - last_return_;
   const std::uint64_t missing_before = last_return_ - returns_;
   if (kWorthTelling * tail < seen_ || tail <= missing_before) return false;
@@ -195,6 +216,13 @@ bool CloudBuilder::is_cut_off(std::uint64_t rows) const {
   // than there are lines.
   const std::uint64_t columns = rows > 0 ? seen_ / rows : 0;
   return rows <= 1 || rows > columns || tail % columns != 0;
+}
+
+// Whether a tenth of the points or more is zero bytes in a row before the last return. Where a row
+// is a laser line, whole lines that look into the sky may be filled with zeros.
+bool CloudBuilder::is_zeroed(std::uint64_t rows) const {
+  if (rows > 1 && rows * rows <= seen_) return false;
+  return kWorthTelling * most_zeros_ >= seen_ && most_zeros_ > 0 && zeros_end_ <= last_return_;
 }
 
 Result<Cloud> CloudBuilder::finish(const std::string& name, std::uint64_t rows) {
@@ -211,6 +239,12 @@ Result<Cloud> CloudBuilder::finish(const std::string& name, std::uint64_t rows) 
         Message("from point %1 of %2 on none is a return (all are NaN, infinite or at the origin), "
                 "as if the recording had been cut off",
                 last_return_ + 1, seen_));
+  }
+  if (is_zeroed(rows)) {
+    cloud_.warnings.push_back(
+        Message("points %1 to %2 of %3 are nothing but zero bytes, as if a part of the file had "
+                "been lost",
+                zeros_end_ - most_zeros_ + 1, zeros_end_, seen_));
   }
   scale_times();
   if (choice_ == PointChoice::kAll) cloud_.rows = static_cast<std::size_t>(rows);

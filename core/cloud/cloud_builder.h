@@ -46,12 +46,14 @@ class CloudBuilder {
 
   void append_small(const char* block, std::size_t first, std::size_t count);
   std::size_t choose_points(std::uint64_t before, std::size_t count);
+  void note_zeros(const char* block, std::size_t first, std::size_t count);
   void append_times(const char* block, std::size_t first, std::size_t count, std::size_t kept);
   void append_column(const std::array<float, kBlock>& values, std::size_t kept, bool all,
                      std::vector<float>& column);
   void drop_not_finite(std::vector<float>& column);
   [[nodiscard]] bool is_return(std::size_t i) const;
   [[nodiscard]] bool is_cut_off(std::uint64_t rows) const;
+  [[nodiscard]] bool is_zeroed(std::uint64_t rows) const;
   void scale_times();
 
   BlockLayout layout_;
@@ -61,6 +63,9 @@ class CloudBuilder {
   std::uint64_t seen_ = 0;
   std::uint64_t returns_ = 0;
   std::uint64_t last_return_ = 0;  ///< Points up to and with the last return.
+  std::uint64_t zeros_ = 0;       ///< Of the blocks so far, how many points of zero bytes end them.
+  std::uint64_t most_zeros_ = 0;  ///< The longest of such stretches,
+  std::uint64_t zeros_end_ = 0;   ///< and up to which point it goes.
   std::optional<ExactTime> first_time_;
   std::array<float, kBlock> x_ = {}, y_ = {}, z_ = {}, scratch_ = {};
   std::array<std::uint16_t, kBlock> lines_ = {}, kept_ = {};

@@ -8,7 +8,8 @@
 namespace lvcalib {
 
 /// A dataset folder under another name beside its place, which it takes when it is complete.
-/// Without finish() nothing of it stays.
+/// Without finish() nothing of it stays, or, of a process that was killed, until the next one makes
+/// a folder for the same place.
 class UnfinishedFolder {
  public:
   /// `replace`: an earlier import of that name may be replaced. Errors: no name for a folder; it
@@ -28,6 +29,7 @@ class UnfinishedFolder {
   explicit UnfinishedFolder(std::filesystem::path path) : path_(std::move(path)) {}
   std::filesystem::path path_;
   std::filesystem::path temporary_;
+  int lock_ = -1;  // Says that somebody still works on it.
 };
 
 }  // namespace lvcalib

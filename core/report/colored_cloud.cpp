@@ -10,6 +10,8 @@
 #include "base/file_io.h"
 #include "model/correction.h"
 #include "model/scene_geometry.h"
+#include "report/json_values.h"
+#include "report/result_inputs.h"
 #include "report/stored_model.h"
 
 namespace lvcalib {
@@ -168,6 +170,13 @@ Result<ColoredCloud> write_colored_ply(const ExportInput& input, const std::stri
         "--scene");
   }
   const std::filesystem::path dataset = input.dataset;
+  const auto result = parse_json(input.result_json);
+  if (result.is_object()) {
+    if (Status s =
+            check_result_inputs(result, "result.json", {found->image, found->cloud}, context);
+        !s)
+      return s.error();
+  }
   const auto image = read_color_image(dataset / found->image);
   if (!image) return image.error();
   if (image->width_px != input.camera.width_px || image->height_px != input.camera.height_px)

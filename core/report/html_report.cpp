@@ -7,12 +7,12 @@
 #include <optional>
 
 #include "base/file_io.h"
-#include "pipeline/input_hashes.h"
 #include "report/discovery_file.h"
 #include "report/json_values.h"
 #include "report/report_figures.h"
 #include "report/report_sections.h"
 #include "report/result_file.h"
+#include "report/result_inputs.h"
 
 namespace lvcalib {
 namespace {
@@ -64,31 +64,6 @@ std::string day_of(std::chrono::system_clock::time_point when) {
   return text.data();
 }
 
-// The pictures are drawn from the scenes' files: from others than those that the result was made of
-// they would show what it does not say. Files that are gone are left to the sections that miss
-// them.
-Status check_inputs(const json& result, const std::string& where, const RunContext& context) {
-  const auto inputs = result.find("inputs");
-  const auto dataset = result.find("dataset");
-  if (inputs == result.end() || !inputs->is_array() || dataset == result.end() ||
-      !dataset->is_string())
-    return Done{};
-  for (const json& file : *inputs) {
-    if (!file.is_object() || !file.contains("path") || !file["path"].is_string() ||
-        !file.contains("sha256") || !file["sha256"].is_string())
-      continue;
-    const auto path =
-        std::filesystem::path(dataset->get<std::string>()) / file["path"].get<std::string>();
-    const std::string hash = file["sha256"].get<std::string>();
-    InputFile now;
-    if (hash.empty() || !hash_file(path, context, now) || now.sha256 == hash) continue;
-    return Error::input(
-        Message("the file is not the one that the result was made of: its content changed"),
-        path.string(), Message("calibrate again (%1 is of the file as it was before)", where));
-  }
-  return context.stopped() ? Status(Error::cancelled()) : Status(Done{});
-}
-
 // `text` is a result.json, `where` names it in errors.
 Result<HtmlReport> report_of(const std::string& text, const std::string& where,
                              const json& discovery, const std::string& day,
@@ -96,7 +71,9 @@ Result<HtmlReport> report_of(const std::string& text, const std::string& where,
   const json result = parse_json(text);
   if (result.is_discarded() || !result.is_object())
     return Error::input(Message("not a JSON object"), where);
-  if (Status s = check_inputs(result, where, context); !s) return s.error();
+  // The pictures are drawn from the scenes' files: from others than those that the result was made
+  // of they would show what it does not say.
+  if (Status s = check_result_inputs(result, where, {}, context); !s) return s.error();
   HtmlReport report;
   try {
     const auto model = model_in(text, where);

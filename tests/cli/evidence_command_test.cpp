@@ -97,6 +97,13 @@ TEST_F(EvidenceCommands, TheReportRefusesFilesThatHaveChanged) {
   const std::string other = read_file(dataset / "scenes" / "C" / "image.png");
   write_file(image, other);
   expect_refusal(run_lvcalib({"report", folder, "-o", out}), 3, "its content changed", out);
+  // So does a cloud that takes its colours from that image; other scenes still have theirs.
+  const auto colored = [&](const char* scene) {
+    return run_lvcalib({"export", folder + "/result.json", "--format", "colored-ply", "--scene",
+                        scene, "-o", at("colored.ply").string()});
+  };
+  expect_refusal(colored("B"), 3, "its content changed", at("colored.ply"));
+  EXPECT_EQ(colored("C").status, 0);
 }
 
 TEST_F(EvidenceCommands, AnInputIsNeverOverwritten) {
@@ -132,11 +139,16 @@ TEST_F(EvidenceCommands, NothingIsWrittenOntoADatasetsFiles) {
        (dataset / "scenes" / "B.pcd").string()},
       {"check", result(), dataset.string(), "-o", cloud.string()},
       {"export", result(), "--format", "matrix", "-o", (result_folder() / "result.yaml").string()},
-      {"export", result(), "--format", "matrix", "-o", (good_dataset() / "camera.yaml").string()}};
+      {"export", result(), "--format", "matrix", "-o", (good_dataset() / "camera.yaml").string()},
+      {"export", result(), "--format", "matrix", "-o", (dataset / "target.yaml").string()},
+      {"report", result_folder().string(), "-o", (dataset / "rig.yaml").string()},
+      {"calibrate", dataset.string(), "--init", (result_folder() / "result.yaml").string(), "-o",
+       result_folder().string()}};
   for (const auto& arguments : among) {
     const Outcome outcome = run_lvcalib(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments[0];
     EXPECT_THAT(outcome.err, ::testing::AnyOf(HasSubstr("among a dataset's scenes"),
+                                              HasSubstr("read as a part of the dataset"),
                                               HasSubstr("the output is the input itself")));
   }
   const std::string target = (dataset / "target.yaml").string();

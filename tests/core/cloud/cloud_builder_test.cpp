@@ -107,6 +107,23 @@ TEST(CloudBuilder, WholeLinesWithoutAReturnLookIntoTheSky) {
   EXPECT_EQ(warnings(7500), 1U);
 }
 
+TEST(CloudBuilder, APartOfZeroBytesIsToldOf) {
+  const auto warnings = [](std::size_t first, std::size_t count, double time) {
+    std::vector<Point> points(20'000, Point{1, 2, 3, 4, 1e-4});
+    std::fill_n(points.begin() + static_cast<std::ptrdiff_t>(first), count,
+                Point{0, 0, 0, 0, time});
+    return build(points)->warnings;
+  };
+  const auto first_half = warnings(0, 10'000, 0.0);
+  ASSERT_EQ(first_half.size(), 1U);
+  EXPECT_THAT(first_half[0].text(),
+              testing::HasSubstr("points 1 to 8192 of 20000 are nothing but"));
+  EXPECT_EQ(warnings(5000, 10'000, 0.0).size(), 1U);
+  // Beams that met nothing have their time; few are no loss.
+  EXPECT_TRUE(warnings(5000, 10'000, 1e-4).empty());
+  EXPECT_TRUE(warnings(5000, 1500, 0.0).empty());
+}
+
 TEST(CloudBuilder, TimesStartAtTheEarliestPoint) {
   const auto cloud = build({{1, 0, 0, 1, 5.5}, {2, 0, 0, 2, 5.25}, {3, 0, 0, 3, 6.0}});
   ASSERT_TRUE(cloud.ok());

@@ -43,5 +43,26 @@ TEST(UnfinishedFolder, ReplacesImportsOnlyAndOnlyIfAsked) {
   EXPECT_FALSE(UnfinishedFolder::create({}, true).ok());
 }
 
+TEST(UnfinishedFolder, ClearsUpAfterProcessesThatWereKilled) {
+  const test::TemporaryFolder folder;
+  const fs::path place = folder.path() / "rig";
+  const fs::path left = folder.path() / ".rig.part1-0";
+  const fs::path before = folder.path() / ".rig.part1-0-old";
+  fs::create_directories(left / "scenes");
+  fs::create_directories(before);
+  auto working = UnfinishedFolder::create(place, false);
+  ASSERT_TRUE(working.ok());
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(fs::exists(before)) << "all that is left of the import before";
+  auto other = UnfinishedFolder::create(place, false);
+  ASSERT_TRUE(other.ok());
+  EXPECT_TRUE(fs::exists(working->path())) << "somebody works on it";
+  test::write_bytes(working->path() / "import.json", "{}");
+  ASSERT_TRUE(working->finish().ok());
+  const auto again = UnfinishedFolder::create(place, true);
+  EXPECT_FALSE(fs::exists(before));
+  EXPECT_TRUE(fs::exists(place / "import.json"));
+}
+
 }  // namespace
 }  // namespace lvcalib
