@@ -4,6 +4,7 @@
 #include <QAction>
 #include <QEvent>
 #include <QHeaderView>
+#include <QScrollBar>
 #include <QSortFilterProxyModel>
 #include <QTreeView>
 #include <QVBoxLayout>
@@ -19,6 +20,7 @@ namespace {
 // Widths of thumbnails, the first of which is taken with which all columns are in sight.
 constexpr int kThumbnailWidths[] = {48, 24, 0};
 constexpr int kThumbnailMargin = 8;
+constexpr int kRowMargin = 4;
 constexpr int kSign = 16 + 14;  // The sign of a state, and the room about it and the words.
 
 }  // namespace
@@ -189,6 +191,18 @@ void ScenesDock::update_actions() {
   insist_->setChecked(insisted);
 }
 
+// The frame, and the bar of a list that is longer than its place. Told by the largest pictures
+// whatever is shown: else they bring a bar, beside which there is room for small ones only, which
+// need no bar, and so on without end.
+int ScenesDock::beside_rows() const {
+  const int picture = model_.has_thumbnails() ? view_->iconSize().height() : 0;
+  const int row = std::max(picture, view_->fontMetrics().height()) + kRowMargin;
+  const int frame = 2 * view_->frameWidth();
+  const int room = view_->height() - frame - view_->header()->height();
+  const bool bar = model_.rowCount() * row > room;
+  return frame + (bar ? view_->verticalScrollBar()->sizeHint().width() : 0);
+}
+
 void ScenesDock::fit_columns() {
   const QHeaderView* header = view_->header();
   const QAbstractItemView& rows = *view_;  // There its hints are public.
@@ -205,27 +219,30 @@ void ScenesDock::fit_columns() {
     if (column != SceneModel::kNote) least += width;
   }
   const int shown = model_.thumbnail_width();
-  const int picture = shown > 0 ? shown + kThumbnailMargin : 0;
+  const auto picture_of = [this](int width) {
+    return width > 0 && model_.has_thumbnails() ? width + kThumbnailMargin : 0;
+  };
+  const int picture = picture_of(shown);
   // The pages beside it ask for room, too, and must not push columns out of sight.
-  const int beside_viewport = view_->width() - view_->viewport()->width();
-  view_->setMinimumWidth(least - picture + std::max(0, beside_viewport));
-  const int words = view_->fontMetrics().horizontalAdvance(SceneModel::used_words());
+  view_->setMinimumWidth(least - picture + beside_rows());
+  int words = 0;
+  for (const QString& name : model_.state_names())
+    words = std::max(words, view_->fontMetrics().horizontalAdvance(name));
   const int said = std::max(0, kSign + words - state);
   needed -= picture;
-  const int room = view_->viewport()->width();
-  const auto with = [&](int width) { return needed + (width > 0 ? width + kThumbnailMargin : 0); };
-  // The usual state in full, or its sign alone: "us…" says nothing. Small pictures go before words.
-  for (const int width : kThumbnailWidths) {
-    if (width == 0 || with(width) + said > room) continue;
-    model_.set_state_said(true);
+  const int room = view_->width() - beside_rows();
+  const auto with = [&](int width) { return needed + picture_of(width); };
+  const auto take = [&](int width) {
+    model_.set_state_room(view_->fontMetrics(), room - with(width) + state - kSign);
     model_.set_thumbnail_width(width);
-    return;
+  };
+  // Every state by a word that is read whole, or by its sign alone: "us…" says nothing. Small
+  // pictures go before words.
+  for (const int width : kThumbnailWidths) {
+    if (width > 0 && with(width) + said <= room) return take(width);
   }
   for (const int width : kThumbnailWidths) {
-    if (width > 0 && with(width) > room) continue;
-    model_.set_state_said(width == 0 && with(width) + said <= room);
-    model_.set_thumbnail_width(width);
-    return;
+    if (width == 0 || with(width) <= room) return take(width);
   }
 }
 

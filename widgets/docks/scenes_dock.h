@@ -48,6 +48,8 @@ class ScenesDock : public QDockWidget {
   void update_actions();
   /// Gives up thumbnails where the columns would not fit otherwise.
   void fit_columns();
+  /// Width of the list that its columns cannot have.
+  [[nodiscard]] int beside_rows() const;
   void move(int by);
   void edit_note();
 

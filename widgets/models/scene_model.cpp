@@ -121,6 +121,8 @@ void SceneModel::fill_result(Row& row, const CalibrationResult& result) const {
     row.can_be_insisted_on = lvcalib::can_be_insisted_on(scene);
     row.edited = edits_text(scene);
     row.refused = refusals_text(result, scene.name);
+    for (const Refusal& refusal : refusals(result))
+      row.refused_tags += refusal.scene == name && refusal.what == Refusal::What::kTag;
     row.objection = scene.objection;
     row.reason = scene.reason;
     row.rejected = scene.rejected;
@@ -158,15 +160,22 @@ void SceneModel::set_thumbnail_width(int width_px) {
     Q_EMIT dataChanged(index(0, kName), index(rowCount() - 1, kName), {Qt::DecorationRole});
 }
 
-void SceneModel::set_state_said(bool said) {
-  if (said == state_said_) return;
-  state_said_ = said;
-  if (!rows_.empty())
+void SceneModel::set_state_room(const QFontMetrics& metrics, int width_px) {
+  if (metrics_ && *metrics_ == metrics && width_px == state_room_px_) return;
+  QStringList before;
+  for (const Row& row : rows_) before << state_said(row);
+  metrics_ = metrics;
+  state_room_px_ = width_px;
+  QStringList after;
+  for (const Row& row : rows_) after << state_said(row);
+  if (before != after)
     Q_EMIT dataChanged(index(0, kState), index(rowCount() - 1, kState), {Qt::DisplayRole});
 }
 
-QString SceneModel::used_words() {
-  return tr("used");
+QStringList SceneModel::state_names() const {
+  QStringList names;
+  for (const Row& row : rows_) names << state_name(row);
+  return names;
 }
 
 void SceneModel::set_problem(const QString& scene, const Message& problem) {
@@ -216,8 +225,7 @@ QVariant SceneModel::data(const QModelIndex& index, int role) const {
   const Row& row = rows_[static_cast<std::size_t>(index.row())];
   switch (role) {
     case Qt::DisplayRole:
-      if (index.column() == kState && !state_said_) return {};
-      return text(row, index.column());
+      return index.column() == kState ? QVariant(state_said(row)) : text(row, index.column());
     case Qt::AccessibleTextRole:
       return index.column() == kState ? QVariant(state_words(row)) : QVariant();
     case kSortRole:
@@ -261,7 +269,9 @@ QVariant SceneModel::text(const Row& row, int column) const {
     case kName:
       return row.name;
     case kTags:
-      return row.tags ? QVariant(QString::number(*row.tags)) : QVariant();
+      if (!row.tags) return {};
+      if (row.refused_tags == 0) return QString::number(*row.tags);
+      return tr("%1/%2").arg(std::max(0, *row.tags - row.refused_tags)).arg(*row.tags);
     case kPoints:
       return row.points ? QVariant(QString::number(*row.points)) : QVariant();
     case kPixels:
@@ -309,6 +319,25 @@ QString SceneModel::state_words(const Row& row) const {
   // A scene just taken back in still has the reason of the last run.
   if (row.reason.empty() || row.rejected) return tr("to be run") + crop;
   return core_text(row.reason) + crop;
+}
+
+// The same by a word, as the list has room for no more beside its figures.
+QString SceneModel::state_name(const Row& row) const {
+  if (row.missing) return tr("missing");
+  if (!row.use) return tr("rejected");
+  if (!row.ran) return problems_.contains(row.name) ? tr("unreadable") : tr("not run");
+  if (row.used) return tr("used");
+  return row.reason.empty() || row.rejected ? tr("to be run") : tr("refused");
+}
+
+QString SceneModel::state_said(const Row& row) const {
+  const QString words = text(row, kState).toString();
+  const auto fits = [this](const QString& said) {
+    return !metrics_ || metrics_->horizontalAdvance(said) <= state_room_px_;
+  };
+  if (fits(words)) return words;
+  const QString name = state_name(row);
+  return fits(name) ? name : QString();
 }
 
 Mark SceneModel::mark_of(const Row& row) const {
@@ -361,7 +390,7 @@ QVariant SceneModel::headerData(int section, Qt::Orientation orientation, int ro
       case kName:
         return {tr("Scene"), tr("Ticked scenes take part in the calibration.")};
       case kTags:
-        return {tr("Tags"), tr("Tags found in the image.")};
+        return {tr("Tags"), tr("Tags found in the image; 13/16: the program uses 13 of 16.")};
       case kPoints:
         return {tr("Points"), tr("LiDAR points on the board.")};
       case kPixels:

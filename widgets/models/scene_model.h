@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QAbstractTableModel>
+#include <QFontMetrics>
 #include <QHash>
 #include <QPixmap>
 #include <QStringList>
@@ -38,13 +39,16 @@ class SceneModel : public QAbstractTableModel {
   /// Tells views that titles and words are in another language.
   void retranslate();
   void set_thumbnail(const QString& scene, const QImage& image);
+  /// Some scene has a picture.
+  [[nodiscard]] bool has_thumbnails() const { return !thumbnails_.isEmpty(); }
   /// Pictures are shown this wide, or smaller; 0: none.
   void set_thumbnail_width(int width_px);
   [[nodiscard]] int thumbnail_width() const { return thumbnail_width_; }
-  /// Whether the state is said in words beside its sign; its tool tip has them always.
-  void set_state_said(bool said);
-  /// What a scene that is used says of itself, the shortest of the states.
-  [[nodiscard]] static QString used_words();
+  /// The state is said beside its sign as far as it fits into this width: in full, by a word, or
+  /// not at all. Its tool tip has it in full always.
+  void set_state_room(const QFontMetrics& metrics, int width_px);
+  /// The states of all scenes, each by a word.
+  [[nodiscard]] QStringList state_names() const;
   /// A file of the scene is missing or cannot be read, in words; empty: no longer.
   void set_problem(const QString& scene, const Message& problem);
 
@@ -89,6 +93,7 @@ class SceneModel : public QAbstractTableModel {
     bool cropped = false;
     // From the result; empty until there is one.
     std::optional<int> tags;
+    int refused_tags = 0;  // Of them, by the program.
     std::optional<int> points;
     std::optional<double> rms_px;
     std::optional<double> rms_mm;
@@ -111,6 +116,8 @@ class SceneModel : public QAbstractTableModel {
   [[nodiscard]] QVariant number(const Row& row, int column) const;
   [[nodiscard]] QString tool_tip(const Row& row, int column) const;
   [[nodiscard]] QString state_words(const Row& row) const;
+  [[nodiscard]] QString state_name(const Row& row) const;
+  [[nodiscard]] QString state_said(const Row& row) const;
   [[nodiscard]] Mark mark_of(const Row& row) const;
 
   std::vector<Row> rows_;
@@ -120,7 +127,8 @@ class SceneModel : public QAbstractTableModel {
   bool has_tags_ = true;
   QHash<QString, QPixmap> thumbnails_;
   int thumbnail_width_ = 48;
-  bool state_said_ = true;
+  std::optional<QFontMetrics> metrics_;  // None: as much room as is needed.
+  int state_room_px_ = 0;
   QHash<QString, Message> problems_;
 };
 

@@ -5,11 +5,13 @@
 #include <QHeaderView>
 #include <QLineEdit>
 #include <QMimeData>
+#include <QScrollBar>
 #include <QSignalSpy>
 #include <QTest>
 #include <QToolButton>
 #include <QTreeView>
 #include <memory>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -161,6 +163,79 @@ TEST_F(ScenesDockTest, ANarrowListGivesUpPicturesAndNoColumn) {
   dock_.resize(700, 300);
   QTest::qWait(20);
   EXPECT_EQ(model_.thumbnail_width(), 48);
+}
+
+// Before a run and beside rejected scenes the words are longer than the usual "used".
+TEST_F(ScenesDockTest, NoStateIsCutHoweverNarrowTheListIs) {
+  Dataset dataset;
+  for (const char* name : {"morning_of_the_third_01", "B", "C"})
+    dataset.scenes.push_back({name, {}, {}, {}});
+  const auto expect_whole = [this](const char* when) {
+    std::set<QString> said;
+    for (int width = 700; width > 100; width -= 7) {
+      dock_.resize(width, 300);
+      QTest::qWait(5);
+      const QAbstractItemView& rows = *view_;
+      for (int row = 0; row < view_->model()->rowCount(); ++row) {
+        const QModelIndex at = view_->model()->index(row, SceneModel::kState);
+        said.insert(at.data().toString());
+        EXPECT_TRUE(at.data().toString().isEmpty() ||
+                    rows.sizeHintForIndex(at).width() <= view_->columnWidth(SceneModel::kState))
+            << when << ", " << dock_.width() << " px: " << at.data().toString().toStdString();
+      }
+    }
+    return said;
+  };
+  model_.set_scenes(dataset, {"Z"});
+  EXPECT_EQ(expect_whole("not run"),
+            (std::set<QString>{"", "missing", "missing on disk", "not run"}));
+  Decisions decisions;
+  decisions.scenes["B"].use = false;
+  model_.set_decisions(decisions);
+  auto result = std::make_shared<CalibrationResult>();
+  for (const char* name : {"morning_of_the_third_01", "B", "C"}) {
+    SceneResult scene;
+    scene.name = name;
+    scene.view.emplace().tag_count = 16;
+    scene.refinement.emplace().board_points = 74642;
+    scene.used = scene.name != "C";
+    if (!scene.used) scene.reason = Message("contradicts the other scenes");
+    result->scenes.push_back(scene);
+  }
+  model_.set_result(result);
+  EXPECT_EQ(expect_whole("rejected"),
+            (std::set<QString>{"", "contradicts the other scenes", "missing", "missing on disk",
+                               "refused", "rejected", "used"}));
+}
+
+// A bar beside the list leaves room for smaller pictures, whose rows need no bar: the list has to
+// settle all the same.
+TEST_F(ScenesDockTest, AListAsLongAsItsPlaceSettles) {
+  Dataset dataset;
+  for (int k = 0; k < 8; ++k) dataset.scenes.push_back({"scene_0" + std::to_string(k), {}, {}, {}});
+  model_.set_scenes(dataset, {});
+  QImage picture(48, 30, QImage::Format_RGB32);
+  picture.fill(Qt::gray);
+  for (int k = 0; k < 8; ++k) model_.set_thumbnail(model_.scene_at(k), picture);
+  int changes = 0;
+  QObject::connect(&model_, &QAbstractItemModel::dataChanged, view_, [&] {
+    // Ends what would go on forever.
+    if (++changes > 50) view_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);
+  });
+  std::set<bool> barred;
+  for (int height = 200; height < 480; height += 20) {
+    for (int width = 500; width > 200; width -= 6) {
+      changes = 0;
+      dock_.resize(width, height);
+      QTest::qWait(2);
+      ASSERT_LE(changes, 50) << dock_.width() << "×" << dock_.height();
+      const bool bar = view_->verticalScrollBar()->isVisible();
+      barred.insert(bar);
+      EXPECT_FALSE(view_->horizontalScrollBar()->isVisible())
+          << dock_.width() << "×" << dock_.height();
+    }
+  }
+  EXPECT_EQ(barred.size(), 2U);
 }
 
 // Pages that ask for room push no column out of sight, and a long note asks for none.

@@ -127,6 +127,44 @@ TEST_F(SceneModelTest, WhatTheProgramRefusedOfASceneIsSaid) {
       model_.index(1, SceneModel::kState).data(Qt::ToolTipRole).toString().contains("program"));
 }
 
+// A row with tags refused does not look like one that is used whole.
+TEST_F(SceneModelTest, OfTagsThatWereRefusedItIsSaidHowManyAreUsed) {
+  auto changed = std::make_shared<CalibrationResult>(*result());
+  for (const int tag : {2, 6, 10}) {
+    for (int k = 0; k < 4; ++k) {
+      CornerResidual corner;
+      corner.feature_id = tag;
+      corner.used = k != 0;
+      changed->extrinsic.scenes[0].corners.push_back(corner);
+    }
+  }
+  model_.set_result(changed);
+  EXPECT_EQ(text(0, SceneModel::kTags), "13/16");
+  EXPECT_EQ(text(1, SceneModel::kTags), "15") << "of another scene";
+  EXPECT_EQ(model_.index(0, SceneModel::kTags).data(SceneModel::kSortRole).toInt(), 16);
+  EXPECT_TRUE(model_.index(0, SceneModel::kTags)
+                  .data(Qt::ToolTipRole)
+                  .toString()
+                  .contains("Left out by the program: tag no. 2, 6, 10."));
+}
+
+// In full where there is room, by a word where there is less, by the sign alone where there is
+// none.
+TEST_F(SceneModelTest, TheStateIsSaidWholeOrNotAtAll) {
+  model_.set_result(result());
+  const QFontMetrics metrics{QFont()};
+  const QString words = "contradicts the other scenes";
+  for (int room = -10; room < 400; ++room) {
+    model_.set_state_room(metrics, room);
+    const QString said = text(1, SceneModel::kState);
+    EXPECT_TRUE(said.isEmpty() || metrics.horizontalAdvance(said) <= room) << room;
+    EXPECT_TRUE(said == words || said == "refused" || said.isEmpty()) << said.toStdString();
+    EXPECT_EQ(said.isEmpty(), metrics.horizontalAdvance("refused") > room) << room;
+    EXPECT_EQ(said == words, metrics.horizontalAdvance(words) <= room) << room;
+    EXPECT_EQ(model_.index(1, SceneModel::kState).data(Qt::AccessibleTextRole).toString(), words);
+  }
+}
+
 TEST_F(SceneModelTest, DecisionsShowAndTicksOnlyAsk) {
   Decisions decisions;
   decisions.scenes["B"].use = false;
