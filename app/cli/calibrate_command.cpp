@@ -9,6 +9,12 @@
 namespace lvcalib::cli {
 namespace {
 
+// Good is what these scenes could test: which part they could not, a warning says.
+std::string verdict_of(const CalibrationResult& result) {
+  const bool open = result.quality == Quality::kGood && !result.unverified.empty();
+  return name_of(result.quality) + (open ? ", camera not verified" : "");
+}
+
 std::string summary_of(const CalibrationResult& result, const std::string& output) {
   const auto& x = result.extrinsic;
   const Eigen::Vector3d& t = x.camera_from_lidar.transform.translation;
@@ -19,7 +25,7 @@ std::string summary_of(const CalibrationResult& result, const std::string& outpu
                 "%s: %d of %zu scenes, t = [%.4f %.4f %.4f] ± [%.2f %.2f %.2f] mm, rotation ± "
                 "[%.2f %.2f %.2f] mrad, in total ± [%.2f %.2f %.2f] mm [%.2f %.2f %.2f] mrad, "
                 "%.3f px, %.3f mm",
-                name_of(result.quality).c_str(), x.used_scenes, result.scenes.size(), t.x(), t.y(),
+                verdict_of(result).c_str(), x.used_scenes, result.scenes.size(), t.x(), t.y(),
                 t.z(), 1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2), 1e3 * sigma(3),
                 1e3 * sigma(4), 1e3 * sigma(5), 1e3 * total(0), 1e3 * total(1), 1e3 * total(2),
                 1e3 * total(3), 1e3 * total(4), 1e3 * total(5), x.rms_px, x.rms_mm);

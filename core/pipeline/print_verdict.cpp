@@ -125,16 +125,21 @@ std::pair<const char*, double> size_field(const Target& t, int axis) {
   }
 }
 
-// A print of another size than the target's, by the intensities.
+// By how much the print is larger than the target's, by the intensities: what the model in force
+// says of it is no contradiction any more.
+Eigen::Array2d print_size_error(const CalibrationResult& result) {
+  return result.forward->print_size.scale.array() - 1.0 - result.modelled_print_scale.array();
+}
+
+// A print of another size than the target's.
 void judge_print_size(const CalibrationResult& result, const QualityOptions& options,
                       Verdict& verdict) {
+  if (!print_size_contradicts(result, options)) return;
   const PrintSize& size = result.forward->print_size;
-  if (!size.measured) return;
-  // What the model in force says of the print is no contradiction any more.
-  const Eigen::Array2d off = size.scale.array() - 1.0 - result.modelled_print_scale.array();
-  const bool clear =
-      (off.abs() > 4.0 * size.sigma.array() && off.abs() > options.scale_warning).any();
-  if (!clear) return;
+  const Eigen::Array2d off = print_size_error(result);
+  // Tags that lie otherwise than told are told of already, and are of another size for that reason.
+  const bool failed = off.abs().maxCoeff() > options.scale_failure;
+  if (!failed && !result.intrinsics.spacing.empty()) return;
   std::string fits;
   for (int axis = 0; axis < 2; ++axis) {
     const auto [field, value] = size_field(result.target, axis);
@@ -165,7 +170,7 @@ void judge_print_size(const CalibrationResult& result, const QualityOptions& opt
         formatted("%.2f ± %.2f", 100.0 * size.scale.x(), 100.0 * size.sigma.x()),
         formatted("%.2f ± %.2f", 100.0 * size.scale.y(), 100.0 * size.sigma.y()), fits);
   }
-  if (off.abs().maxCoeff() > options.scale_failure) {
+  if (failed) {
     verdict.failed(text);
   } else {
     verdict.doubtful(text);
@@ -190,6 +195,13 @@ double white_share(const BlurredPrint& print, const Cloud& points, const Rigid3&
 }
 
 }  // namespace
+
+bool print_size_contradicts(const CalibrationResult& result, const QualityOptions& options) {
+  if (!result.forward || !result.forward->print_size.measured) return false;
+  const Eigen::Array2d off = print_size_error(result).abs();
+  return (off > 4.0 * result.forward->print_size.sigma.array() && off > options.scale_warning)
+      .any();
+}
 
 void judge_print(const CalibrationResult& result, const QualityOptions& options, Verdict& verdict) {
   const ForwardSolution& forward = *result.forward;

@@ -36,8 +36,8 @@ void judge_scale(const CalibrationResult& result, const QualityOptions& options,
                     percent);
   if (std::abs(off) > options.scale_failure) {
     verdict.failed(text);
-  } else {
-    verdict.note(text);
+  } else if (result.intrinsics.spacing.empty() && !print_size_contradicts(result, options)) {
+    verdict.note(text);  // The print says it better, where it was seen.
   }
 }
 
@@ -62,6 +62,13 @@ void judge_model(const IntrinsicsContradiction& found, Verdict& verdict) {
                 "and %3 mrad, less than what matters",
                 found.what, move_mm, move_mrad));
   }
+}
+
+// Whether the images alone say that the camera is another one. What misses its model then does so
+// for that reason; what is wrong besides shows once the camera is right.
+bool another_camera(const CalibrationResult& result) {
+  const auto& found = result.intrinsics.contradiction;
+  return found && !found->by_ranges && (found->turned_deg > 0 || found->modelled || found->matters);
 }
 
 // Given intrinsics that corners and returns contradict: what is wrong, how large, what it does.
@@ -315,7 +322,8 @@ void judge_corners(const CalibrationResult& result, const QualityOptions& option
   }
   const auto misfit = corner_misfit(result);
   if (!misfit) return;
-  // What another camera or another distortion model mends is told as that.
+  // What another camera, another distortion model or another print mends is told as that.
+  if (another_camera(result) || !result.intrinsics.spacing.empty()) return;
   const auto& contradiction = result.intrinsics.contradiction;
   if (contradiction && (noise_px > 0.0 ? contradiction->better_model &&
                                              contradiction->better_px < kCornersMiss * noise_px
@@ -338,27 +346,51 @@ void judge_corners(const CalibrationResult& result, const QualityOptions& option
       formatted("%.1f", 1e3 * shift_m), formatted("%.2f", 1e3 * turn)));
 }
 
-// Which scenes are out of use and why; equal reasons once.
-Message unused_scenes(const CalibrationResult& result) {
-  constexpr std::size_t kMost = 6;  // As many as a reader takes in at once.
-  std::vector<std::pair<Message, std::vector<std::string>>> by_reason;
+// Scenes that are out of use for one reason.
+struct UnusedScenes {
+  Message reason;
+  std::vector<std::string> names;
+  // The image shows the board, and the cloud shows none where the other scenes say: scenes that
+  // contradict them are worth more than a note.
+  bool contradict = false;
+};
+
+// Equal reasons once.
+std::vector<UnusedScenes> unused_scenes(const CalibrationResult& result) {
+  std::vector<UnusedScenes> by_reason;
   for (const SceneResult& scene : result.scenes) {
     if (scene.used || scene.reason.empty() || scene.rejected) continue;
-    const auto same = std::find_if(by_reason.begin(), by_reason.end(),
-                                   [&](const auto& r) { return r.first == scene.reason; });
-    if (same != by_reason.end()) {
-      same->second.push_back(scene.name);
+    auto same = std::find_if(by_reason.begin(), by_reason.end(),
+                             [&](const auto& r) { return r.reason == scene.reason; });
+    if (same == by_reason.end()) same = by_reason.insert(same, {scene.reason, {}, false});
+    same->names.push_back(scene.name);
+    same->contradict = same->contradict || scene.contradicts;
+  }
+  return by_reason;
+}
+
+// As many reasons as a reader takes in at once.
+Message in_short(const std::vector<UnusedScenes>& unused) {
+  constexpr std::size_t kMost = 6;
+  std::vector<Message> out;
+  for (std::size_t k = 0; k < unused.size() && k < kMost; ++k)
+    out.push_back(Message("scene %1: %2", joined(unused[k].names, ", "), unused[k].reason));
+  if (unused.size() > kMost) out.push_back(Message("and more"));
+  return joined(out, "; ");
+}
+
+void judge_unused(const CalibrationResult& result, Verdict& verdict) {
+  for (const UnusedScenes& unused : unused_scenes(result)) {
+    const std::string names = joined(unused.names, ", ");
+    const Message text = unused.names.size() == 1
+                             ? Message("scene %1 is not used: %2", names, unused.reason)
+                             : Message("scenes %1 are not used: %2", names, unused.reason);
+    if (unused.contradict) {
+      verdict.doubtful(text);
     } else {
-      by_reason.emplace_back(scene.reason, std::vector{scene.name});
+      verdict.note(text);
     }
   }
-  std::vector<Message> out;
-  for (std::size_t k = 0; k < by_reason.size() && k < kMost; ++k) {
-    const auto& [reason, names] = by_reason[k];
-    out.push_back(Message("scene %1: %2", joined(names, ", "), reason));
-  }
-  if (by_reason.size() > kMost) out.push_back(Message("and more"));
-  return joined(out, "; ");
 }
 
 // One scene agrees with itself whatever is wrong.
@@ -369,7 +401,7 @@ void judge_count(const CalibrationResult& result, Verdict& verdict) {
         Message("two scenes: a mistake in one of them could not be told from one in the other"));
   }
   if (used >= 2) return;
-  const Message others = unused_scenes(result);
+  const Message others = in_short(unused_scenes(result));
   verdict.doubtful(
       others.empty()
           ? Message("only one usable scene: nothing to check the result against; take two or more")
@@ -439,7 +471,9 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   judge_shared_files(result, verdict);
   if (const Message unseen = diagnose_unseen_tags(result); !unseen.empty())
     verdict.doubtful(unseen);
-  if (const Message radius = better_circle_radius(result); !radius.empty())
+  // Circles are measured through the camera.
+  const bool camera = another_camera(result);
+  if (const Message radius = better_circle_radius(result); !camera && !radius.empty())
     verdict.doubtful(Message("the images contradict target.yaml: %1; measure the print", radius));
   judge_count(result, verdict);
   const Message bump = diagnose_bump(result);
@@ -465,12 +499,17 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   judge_scene_scales(result, options, verdict);
   judge_splits(result, verdict);
   judge_leverage(result, verdict);
+  // A cause that is named explains what misses because of it; nobody is sent after that as well.
+  // What trails along the scan may look like a small bump, and is told beside it.
+  bool named = camera || !bump.empty() || !result.intrinsics.spacing.empty();
   if (bump.empty()) judge_bump(result, verdict);
-  judge_scans(result, options, verdict);
+  if (!named) named = judge_scans(result, options, verdict);
   if (!result.unverified.empty()) verdict.note(result.unverified);
   judge_corners(result, options, verdict);
   judge_missing(result, verdict);
-  if (result.model_fit) {
+  if (named) {
+    // Residuals beyond their noise are no news.
+  } else if (result.model_fit) {
     // Planes and circles, one number for many returns, tell less.
     if (result.modelled_range_misfit > options.max_noise_scale) {
       verdict.doubtful(
@@ -495,18 +534,10 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   const bool told = note_missing_circles(result, verdict);
   // Behind what is wrong, which may be why they are weak.
   for (const Message& direction : x.weak_directions) verdict.doubtful(direction);
+  // Of a single scene that is used it was said why the others are not.
+  if (x.used_scenes > 1) judge_unused(result, verdict);
   for (const SceneResult& scene : result.scenes) {
     for (const Message& w : scene.cloud_warnings) verdict.note(about_cloud(scene.name, w));
-    if (!scene.used && !scene.reason.empty() && !scene.rejected) {
-      // The image shows the board, and the cloud shows none where the other scenes say: a scene
-      // that contradicts them is worth more than a note.
-      const Message text = Message("scene %1 is not used: %2", scene.name, scene.reason);
-      if (scene.contradicts) {
-        verdict.doubtful(text);
-      } else {
-        verdict.note(text);
-      }
-    }
     if (scene.used && !scene.objection.empty())
       verdict.doubtful(Message("scene %1 is used all the same, as you decided, though %2",
                                scene.name, scene.objection));

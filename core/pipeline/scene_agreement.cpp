@@ -301,12 +301,13 @@ void judge_bump(const CalibrationResult& result, Verdict& verdict) {
                           name_of(order[first - 1]), name_of(order[first])));
 }
 
-void judge_scans(const CalibrationResult& result, const QualityOptions& q, Verdict& verdict) {
-  if (!result.forward || result.model_fit) return;
+bool judge_scans(const CalibrationResult& result, const QualityOptions& q, Verdict& verdict) {
+  if (!result.forward || result.model_fit) return false;
   const UncertainRigid3& solved = result.extrinsic.camera_from_lidar;
   const double sigma_m = std::sqrt(solved.covariance.topLeftCorner<3, 3>().trace());
   const double sigma_rad = std::sqrt(solved.covariance.bottomRightCorner<3, 3>().trace());
   const std::vector<std::size_t> in_use = scenes_in_use(result.extrinsic);
+  bool told = false;
   for (const ScanFault& fault : result.forward->scan_faults) {
     const Rigid3 moved = se3_exp(fault.move) * solved.transform;
     const double move_m = translation_distance_m(moved.inverse(), solved.transform.inverse());
@@ -314,6 +315,7 @@ void judge_scans(const CalibrationResult& result, const QualityOptions& q, Verdi
     const bool matters = move_m > std::max(q.tolerance_m, q.tolerance_sigmas * sigma_m) ||
                          move_rad > std::max(q.tolerance_rad, q.tolerance_sigmas * sigma_rad);
     if (!fault.is_there() || !matters) continue;
+    told = true;
     const std::string move_mm = formatted("%.1f", 1e3 * move_m);
     const std::string move_mrad = formatted("%.2f", 1e3 * move_rad);
     if (fault.kind == ScanFault::Kind::kLag) {
@@ -353,6 +355,7 @@ void judge_scans(const CalibrationResult& result, const QualityOptions& q, Verdi
                       "rig rest, or find the effect with lvcalib discover",
                       size, move_mm, move_mrad));
   }
+  return told;
 }
 
 void judge_splits(const CalibrationResult& result, Verdict& verdict) {

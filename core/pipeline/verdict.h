@@ -49,6 +49,9 @@ class Verdict {
 
 /// What the intensities say about the print, and what keeps them from saying it.
 void judge_print(const CalibrationResult& result, const QualityOptions& options, Verdict& verdict);
+/// Whether the intensities show a print of another size than the target's, beyond what the model in
+/// force says of it: by four standard deviations and more than options.scale_warning.
+bool print_size_contradicts(const CalibrationResult& result, const QualityOptions& options);
 
 // Scenes against each other, and what is within one of them.
 
@@ -67,7 +70,8 @@ bool agrees_with_others(const ForwardSolution& forward, std::size_t scene,
 /// for one.
 void judge_bump(const CalibrationResult& result, Verdict& verdict);
 /// What moved while the scans were taken, or trails along them, where the clouds' times tell.
-void judge_scans(const CalibrationResult& result, const QualityOptions& options, Verdict& verdict);
+/// Returns whether anything is told.
+bool judge_scans(const CalibrationResult& result, const QualityOptions& options, Verdict& verdict);
 /// Halves of the scenes that contradict each other: something depends on what parts them.
 void judge_splits(const CalibrationResult& result, Verdict& verdict);
 /// Two boards with the same print, in every cloud, are two extrinsics that all scenes agree on.

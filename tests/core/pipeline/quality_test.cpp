@@ -160,6 +160,50 @@ TEST(JudgeQuality, EveryFlawHasItsVerdictAndItsWords) {
   }
 }
 
+// What follows from a cause that is named is no second cause, and nobody is sent after it.
+TEST(JudgeQuality, OneCauseIsToldOnce) {
+  const auto other_camera = [](CalibrationResult& r) {
+    r.intrinsics.contradiction.emplace();
+    r.intrinsics.contradiction->what = Message("the focal length is wrong");
+    r.intrinsics.contradiction->matters = true;
+  };
+  const auto other_print = [](CalibrationResult& r) {
+    r.intrinsics.spacing = Message("tagSpacing: 0.5");
+  };
+  for (const std::function<void(CalibrationResult&)>& cause :
+       std::vector<std::function<void(CalibrationResult&)>>{other_camera, other_print}) {
+    CalibrationResult result = flawless();
+    cause(result);
+    result.extrinsic.node_scale = 4.0;
+    result.intrinsics.replicate_px = 0.02;
+    result.extrinsic.sigma_px = 0.5;
+    judge_quality(result, {});
+    EXPECT_EQ(result.quality, Quality::kDoubtful);
+    EXPECT_EQ(result.warnings.size(), 1U) << all_warnings(result);
+    // Without the cause, they are.
+    result.intrinsics.contradiction.reset();
+    result.intrinsics.spacing = {};
+    judge_quality(result, {});
+    EXPECT_THAT(all_warnings(result), HasSubstr("their noise"));
+  }
+}
+
+TEST(JudgeQuality, ScenesThatAreNotUsedForOneReasonAreNamedTogether) {
+  CalibrationResult result = flawless();
+  for (const std::size_t k : {0U, 2U}) {
+    result.scenes[k].used = false;
+    result.scenes[k].reason = Message("no tags");
+  }
+  result.extrinsic.used_scenes = 2;
+  judge_quality(result, {});
+  EXPECT_THAT(all_warnings(result), HasSubstr("scenes A, C are not used: no tags"));
+  // Where the verdict names them, they are not named again.
+  result.extrinsic.used_scenes = 1;
+  judge_quality(result, {});
+  EXPECT_THAT(all_warnings(result), HasSubstr("take two or more; scene A, C: no tags"));
+  EXPECT_THAT(all_warnings(result), ::testing::Not(HasSubstr("not used")));
+}
+
 TEST(JudgeQuality, KeepsWarningsOfOthersAndTheUsersChoicesToItself) {
   CalibrationResult result = flawless();
   result.warnings = {Message("camera.yaml: unknown key")};
