@@ -148,11 +148,13 @@ std::vector<CloudLine> lidar_axes(double length_m) {
 }
 
 void add_board(std::vector<CloudLine>& lines, const Target& target, const Rigid3& lidar_from_board,
-               const std::array<double, 3>& color, const std::set<int>& refused = {}) {
+               const std::array<double, 3>& color, CloudLineWidth width,
+               const std::set<int>& refused = {}) {
   const BoardWireframe wire = board_wireframe(target, lidar_from_board);
-  lines.push_back({wire.outline_m, color, true});
+  lines.push_back({wire.outline_m, color, true, width});
   for (const BoardWireframe::Shape& circle : wire.circles) {
-    lines.push_back({circle.points_m, refused.contains(circle.id) ? kRefusedColor : color, true});
+    lines.push_back(
+        {circle.points_m, refused.contains(circle.id) ? kRefusedColor : color, true, width});
   }
 }
 
@@ -224,8 +226,8 @@ std::vector<CloudLine> unused_marks(const UnusedPoints& points) {
       const Eigen::Vector3d p = from[i].cast<double>();
       const Eigen::Vector3d side = p.unitOrthogonal() * kHalf * p.norm();
       const Eigen::Vector3d other = p.normalized().cross(side);
-      lines.push_back({{p - side - other, p + side + other}, color, false});
-      lines.push_back({{p - side + other, p + side - other}, color, false});
+      lines.push_back({{p - side - other, p + side + other}, color, false, CloudLineWidth::kHair});
+      lines.push_back({{p - side + other, p + side - other}, color, false, CloudLineWidth::kHair});
     }
   };
   add(points.refused_m, kRefusedColor);
@@ -255,11 +257,11 @@ std::vector<CloudLine> cloud_lines(const CalibrationResult& result, const SceneR
   if (solution != nullptr && has_extrinsic(result)) {
     const Rigid3 lidar_from_board =
         result.extrinsic.camera_from_lidar.transform.inverse() * solution->camera_from_board;
-    add_board(lines, result.target, lidar_from_board, kCameraColor);
+    add_board(lines, result.target, lidar_from_board, kCameraColor, CloudLineWidth::kUsual);
   }
   if (scene.refinement) {
     add_board(lines, result.target, scene.refinement->lidar_from_board, kLidarColor,
-              refused_circles(result, scene));
+              CloudLineWidth::kBroad, refused_circles(result, scene));
     for (const CoveredPart& part : covered_parts(result, scene)) {
       CloudLine line{{}, part.reason.empty() ? kKeptColor : kRefusedColor, true};
       for (const Eigen::Vector2d& p : part.board_m.corners_m())

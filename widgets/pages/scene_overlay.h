@@ -39,7 +39,7 @@ void add_unused(ImageOverlay& overlay, const CalibrationResult& result, const Un
 std::vector<CloudLine> unused_marks(const UnusedPoints& points);
 
 /// Lines of the cloud view: the board as the LiDAR sees it (orange), and as camera and extrinsic
-/// predict it (blue).
+/// predict it (blue). Both lie in the same place: the former is broad, under the latter.
 std::vector<CloudLine> cloud_lines(const CalibrationResult& result, const SceneResult& scene);
 
 /// The points about the boards of all scenes as one cloud in the LiDAR's frame; in place of a line

@@ -8,6 +8,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkFloatArray.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -64,13 +65,13 @@ std::vector<vtkSmartPointer<vtkActor>> point_portions(const CloudScene& scene,
   return portions;
 }
 
-void show_lines(vtkActor& actor, const std::vector<CloudLine>& lines) {
+void show_lines(vtkActor& actor, const std::vector<CloudLine>& lines, CloudLineWidth width) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> cells;
   vtkNew<vtkUnsignedCharArray> colors;
   colors->SetNumberOfComponents(3);
   for (const CloudLine& line : lines) {
-    if (line.points_m.size() < 2) continue;
+    if (line.points_m.size() < 2 || line.width != width) continue;
     const vtkIdType first = points->GetNumberOfPoints();
     cells->InsertNextCell(static_cast<int>(line.points_m.size()) + (line.closed ? 1 : 0));
     for (const Eigen::Vector3d& p : line.points_m) {
@@ -87,11 +88,17 @@ void show_lines(vtkActor& actor, const std::vector<CloudLine>& lines) {
   data->GetCellData()->SetScalars(colors);
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
-  // Lines lie on the surface that the points scatter about: bring them a little forward.
-  mapper->SetResolveCoincidentTopologyToPolygonOffset();
-  mapper->SetRelativeCoincidentTopologyLineOffsetParameters(-4.0, -4.0);
   actor.SetMapper(mapper);
-  actor.SetVisibility(lines.empty() ? 0 : 1);
+  actor.SetVisibility(cells->GetNumberOfCells() > 0 ? 1 : 0);
+}
+
+void bring_forward(vtkProp3D& prop, const Eigen::Vector3d& eye_m, double share) {
+  vtkNew<vtkMatrix4x4> matrix;
+  for (int k = 0; k < 3; ++k) {
+    matrix->SetElement(k, k, 1.0 - share);
+    matrix->SetElement(k, 3, share * eye_m(k));
+  }
+  prop.SetUserMatrix(matrix);
 }
 
 void show_points(vtkActor& actor, const std::vector<Eigen::Vector3d>& points_m,

@@ -8,6 +8,7 @@
 #include "views/cloud_scene.h"
 
 class vtkActor;
+class vtkProp3D;
 class vtkProperty;
 template <class T>
 class vtkSmartPointer;
@@ -15,6 +16,7 @@ class vtkSmartPointer;
 namespace lvcalib::widgets {
 
 struct CloudLine;
+enum class CloudLineWidth;
 
 /// Points of one portion: small enough that it draws in a few milliseconds, large enough that the
 /// number of portions does not matter.
@@ -25,8 +27,12 @@ inline constexpr std::size_t kCloudPortion = 25'000;
 std::vector<vtkSmartPointer<vtkActor>> point_portions(const CloudScene& scene,
                                                       vtkProperty& property);
 
-/// Makes an actor draw these lines, or hides it if there are none.
-void show_lines(vtkActor& actor, const std::vector<CloudLine>& lines);
+/// Makes an actor draw those of these lines that have this width; hides it if there are none.
+void show_lines(vtkActor& actor, const std::vector<CloudLine>& lines, CloudLineWidth width);
+
+/// Moves what is drawn towards the viewer's eye, by this share of its distance. It stays where it
+/// is in the picture, and comes before what scatters about the same surface.
+void bring_forward(vtkProp3D& prop, const Eigen::Vector3d& eye_m, double share);
 
 /// Makes an actor draw these points (m), large if they are few, or hides it if there are none.
 void show_points(vtkActor& actor, const std::vector<Eigen::Vector3d>& points_m,

@@ -85,7 +85,7 @@ struct CloudPipeline::Vtk {
   vtkNew<vtkInteractorStyleTrackballCamera> style;
   vtkNew<vtkBoxWidget2> box_widget;
   vtkNew<vtkBoxRepresentation> box;
-  vtkNew<vtkActor> line_actor;
+  std::array<vtkNew<vtkActor>, 3> line_actors;  // By CloudLineWidth.
   vtkNew<vtkActor> highlight_actor;
   vtkNew<vtkProperty> point_property;
   std::vector<vtkSmartPointer<vtkActor>> portions;
@@ -190,10 +190,32 @@ struct CloudPipeline::Vtk {
     renderer->ResetCameraClippingRange(wide.data());
   }
 
+  vtkActor* of_width(CloudLineWidth width) { return line_actors[static_cast<std::size_t>(width)]; }
+
+  void showMarks(bool shown) {
+    const auto show = [&](vtkActor& actor) {
+      actor.SetVisibility(shown && actor.GetMapper() != nullptr ? 1 : 0);
+    };
+    for (const auto& actor : line_actors) show(*actor);
+    show(*highlight_actor);
+  }
+
+  // Points scatter by centimetres about the surface on which lines lie: at their own depth lines
+  // would be seen here and there only.
+  void bringLinesForward() {
+    const Eigen::Vector3d eye_m(renderer->GetActiveCamera()->GetPosition());
+    bring_forward(*of_width(CloudLineWidth::kHair), eye_m, 0.02);
+    bring_forward(*of_width(CloudLineWidth::kBroad), eye_m, 0.03);
+    bring_forward(*of_width(CloudLineWidth::kUsual), eye_m, 0.04);
+    bring_forward(*highlight_actor, eye_m, 0.05);
+  }
+
   // VTK counts the screen's own pixels: on a fine screen lines would be hairs.
   void scaleLines() {
     const auto ratio = static_cast<float>(device_pixel_ratio);
-    line_actor->GetProperty()->SetLineWidth(2.0F * ratio);
+    of_width(CloudLineWidth::kHair)->GetProperty()->SetLineWidth(1.0F * ratio);
+    of_width(CloudLineWidth::kUsual)->GetProperty()->SetLineWidth(2.0F * ratio);
+    of_width(CloudLineWidth::kBroad)->GetProperty()->SetLineWidth(5.0F * ratio);
     box->GetOutlineProperty()->SetLineWidth(1.5F * ratio);
     box->GetSelectedOutlineProperty()->SetLineWidth(2.5F * ratio);
   }
@@ -203,13 +225,17 @@ CloudPipeline::CloudPipeline(Hooks hooks) : vtk_(std::make_unique<Vtk>()) {
   vtk_->hooks = std::move(hooks);
   vtk_->createInteraction();
   vtk_->scaleLines();
-  vtk_->line_actor->GetProperty()->LightingOff();
+  for (const auto& actor : vtk_->line_actors) {
+    // Many drivers draw every line a pixel wide in this profile of OpenGL; VTK's tubes are as wide
+    // as they are to be.
+    actor->GetProperty()->RenderLinesAsTubesOn();
+    actor->GetProperty()->LightingOff();
+    vtk_->renderer->AddActor(actor);
+  }
   vtk_->highlight_actor->GetProperty()->LightingOff();
-  vtk_->point_property->LightingOff();
-  vtk_->line_actor->SetVisibility(0);
-  vtk_->highlight_actor->SetVisibility(0);
-  vtk_->renderer->AddActor(vtk_->line_actor);
   vtk_->renderer->AddActor(vtk_->highlight_actor);
+  vtk_->showMarks(false);
+  vtk_->point_property->LightingOff();
 }
 
 CloudPipeline::~CloudPipeline() {
@@ -254,7 +280,9 @@ void CloudPipeline::setScene(std::shared_ptr<const CloudScene> scene) {
 }
 
 void CloudPipeline::setLines(const std::vector<CloudLine>& lines) {
-  show_lines(*vtk_->line_actor, lines);
+  for (const CloudLineWidth width :
+       {CloudLineWidth::kHair, CloudLineWidth::kUsual, CloudLineWidth::kBroad})
+    show_lines(*vtk_->of_width(width), lines, width);
 }
 
 void CloudPipeline::setHighlights(const std::vector<Eigen::Vector3d>& points_m) {
@@ -375,9 +403,8 @@ void CloudPipeline::drawFirst(std::size_t points) {
   const std::size_t wanted = std::max<std::size_t>(1, points / kCloudPortion);
   vtk_->drawn = std::min(vtk_->portions.size(), wanted);
   vtk_->showPortions(0, vtk_->drawn);
-  const bool lines = vtk_->line_actor->GetMapper() != nullptr;
-  vtk_->line_actor->SetVisibility(lines ? 1 : 0);
-  vtk_->highlight_actor->SetVisibility(vtk_->highlight_actor->GetMapper() != nullptr ? 1 : 0);
+  vtk_->showMarks(true);
+  vtk_->bringLinesForward();
   vtk_->box->SetVisibility(vtk_->box_shown ? 1 : 0);
   vtk_->setClipping();
   vtk_->render();
@@ -391,8 +418,7 @@ void CloudPipeline::drawMore(std::size_t points) {
   const std::size_t wanted = std::max<std::size_t>(1, points / kCloudPortion);
   const std::size_t end = std::min(vtk_->portions.size(), vtk_->drawn + wanted);
   vtk_->showPortions(vtk_->drawn, end);
-  vtk_->line_actor->SetVisibility(0);
-  vtk_->highlight_actor->SetVisibility(0);
+  vtk_->showMarks(false);
   vtk_->box->SetVisibility(0);
   vtk_->drawn = end;
   vtk_->render();

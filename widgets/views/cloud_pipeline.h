@@ -16,11 +16,16 @@
 
 namespace lvcalib::widgets {
 
+/// Where lines coincide, the narrower is drawn over the broader, so that both are seen; hairs are
+/// drawn under both.
+enum class CloudLineWidth { kHair, kUsual, kBroad };
+
 /// A line of the cloud picture, such as a circle or the board's edge.
 struct CloudLine {
   std::vector<Eigen::Vector3d> points_m;
   std::array<double, 3> color{1, 1, 1};
   bool closed = true;
+  CloudLineWidth width = CloudLineWidth::kUsual;
 };
 
 /// A mouse event in device pixels, from the top left.

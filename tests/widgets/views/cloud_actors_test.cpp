@@ -43,12 +43,13 @@ TEST(CloudActors, PortionsHoldAllPointsInTheirOrder) {
 TEST(CloudActors, LinesAreClosedWhenAskedAndHiddenWhenNone) {
   vtkNew<vtkActor> actor;
   const std::vector<Eigen::Vector3d> corner{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
-  show_lines(*actor, {{corner, {1, 0, 0}, true}, {corner, {0, 1, 0}, false}, {{}, {}, true}});
+  show_lines(*actor, {{corner, {1, 0, 0}, true}, {corner, {0, 1, 0}, false}, {{}, {}, true}},
+             CloudLineWidth::kUsual);
   auto* data = vtkPolyData::SafeDownCast(actor->GetMapper()->GetInput());
   EXPECT_EQ(data->GetNumberOfLines(), 2);
   EXPECT_EQ(data->GetNumberOfPoints(), 6);
   EXPECT_EQ(actor->GetVisibility(), 1);
-  show_lines(*actor, {});
+  show_lines(*actor, {{corner, {1, 0, 0}, true}}, CloudLineWidth::kHair);
   EXPECT_EQ(actor->GetVisibility(), 0);
 }
 
