@@ -254,9 +254,11 @@ void ScenePage::selectPoint(std::uint32_t point) {
   QString text =
       describePoint(*scene->cloud, point) + refusalOfPoint(scene->cloud->points_m[point]);
   std::vector<std::uint32_t> points{point};
-  if (picked_ && *picked_ < scene->cloud->size() && *picked_ != point) {
+  // Its place tells whether it is the point of this number in what is shown now.
+  if (picked_ && *picked_ < scene->cloud->size() && *picked_ != point &&
+      scene->cloud->points_m[*picked_] == picked_m_) {
     points.push_back(*picked_);
-    const Eigen::Vector3f d = scene->cloud->points_m[point] - scene->cloud->points_m[*picked_];
+    const Eigen::Vector3f d = scene->cloud->points_m[point] - picked_m_;
     text += QLatin1Char('\n') + tr("%1 m from point %2, picked before: Δx %3, Δy %4, Δz %5 m")
                                     .arg(d.norm(), 0, 'f', 4)
                                     .arg(*picked_)
@@ -265,6 +267,7 @@ void ScenePage::selectPoint(std::uint32_t point) {
                                     .arg(d.z(), 0, 'f', 4);
   }
   picked_ = point;
+  picked_m_ = scene->cloud->points_m[point];
   cloud_->view()->setHighlights(points);
   selection_->setText(text);
   selection_->setSelection({aboutBoard({point}), {}, {}}, result_.get(), current());

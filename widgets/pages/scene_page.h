@@ -111,6 +111,7 @@ class ScenePage : public QWidget {
   CloudPane* cloud_ = nullptr;
   ImagePane* image_ = nullptr;
   std::optional<std::uint32_t> picked_;  // In the cloud shown; the one before is measured from.
+  Eigen::Vector3f picked_m_ = Eigen::Vector3f::Zero();
   QLabel* refusal_ = nullptr;
   QLabel* edits_ = nullptr;
   SelectionBar* selection_ = nullptr;

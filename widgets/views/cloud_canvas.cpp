@@ -85,6 +85,10 @@ void CloudCanvas::land() {
   viewMoved();
 }
 
+Viewer CloudCanvas::destination() const {
+  return flight_step_.isActive() ? to_ : pipeline_->viewer();
+}
+
 void CloudCanvas::flyOn() {
   const double share = static_cast<double>(flight_.elapsed()) / kFlight_ms;
   if (share >= 1.0) return land();

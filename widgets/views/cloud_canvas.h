@@ -37,6 +37,8 @@ class CloudCanvas : public QOpenGLWidget {
   void fly(CloudViewpoint viewpoint);
   /// Ends a flight where it goes to.
   void land();
+  /// Where the viewer is, or will be once a flight has ended.
+  [[nodiscard]] Viewer destination() const;
 
   [[nodiscard]] const FrameStatistics& statistics() const { return statistics_; }
   /// True once all points are in the picture and the viewer has arrived.

@@ -165,12 +165,16 @@ void CloudView::setScene(std::shared_ptr<const CloudScene> scene) {
   scene_ = std::move(scene);
   if (canvas_ != nullptr) {
     canvas_->pipeline().setScene(scene_);
-    canvas_->pipeline().setHighlights({});
-    if (other || found) {
+    // Marks are places in space: they stay however the points about them are shown.
+    if (!scene_ || !scene_->cloud) canvas_->pipeline().setHighlights({});
+    const auto viewpoint = has_board ? CloudViewpoint::kBoard : CloudViewpoint::kMost;
+    if (other) {
       canvas_->land();
-      canvas_->pipeline().look(has_board ? CloudViewpoint::kBoard : CloudViewpoint::kMost);
-      framed_ = canvas_->pipeline().viewer();
+      canvas_->pipeline().look(viewpoint);
+    } else if (found) {
+      canvas_->fly(viewpoint);
     }
+    if (other || found) framed_ = canvas_->destination();
     canvas_->redraw();
   }
   updateLegend();
@@ -178,7 +182,7 @@ void CloudView::setScene(std::shared_ptr<const CloudScene> scene) {
 
 bool CloudView::viewerHasMoved() const {
   if (canvas_ == nullptr || !framed_) return false;
-  const Viewer now = canvas_->pipeline().viewer();
+  const Viewer now = canvas_->destination();
   return now.eye_m != framed_->eye_m || now.focus_m != framed_->focus_m || now.up != framed_->up;
 }
 
@@ -189,10 +193,11 @@ void CloudView::setLines(const std::vector<CloudLine>& lines) {
 }
 
 void CloudView::setHighlights(const std::vector<std::uint32_t>& points) {
-  if (canvas_ == nullptr || !scene_ || !scene_->cloud) return;
+  if (canvas_ == nullptr) return;
   std::vector<Eigen::Vector3d> places;
   for (const std::uint32_t i : points) {
-    if (i < scene_->cloud->size()) places.push_back(scene_->cloud->points_m[i].cast<double>());
+    if (scene_ && scene_->cloud && i < scene_->cloud->size())
+      places.push_back(scene_->cloud->points_m[i].cast<double>());
   }
   canvas_->pipeline().setHighlights(places);
   canvas_->redraw();

@@ -36,7 +36,8 @@ class CloudView : public QWidget {
   void setScene(std::shared_ptr<const CloudScene> scene);
   [[nodiscard]] const std::shared_ptr<const CloudScene>& scene() const { return scene_; }
   void setLines(const std::vector<CloudLine>& lines);
-  /// Emphasises points, by index into the scene's cloud.
+  /// Emphasises points, by index into the scene's cloud, until others are: also in scenes that
+  /// follow.
   void setHighlights(const std::vector<std::uint32_t>& points);
   /// Shows a crop box, with handles if `editable`.
   void setBox(const std::optional<CropBox>& box, bool editable);

@@ -180,6 +180,91 @@ TEST_F(CloudViewTest, FliesFromViewToView) {
   EXPECT_LT((view_.canvas()->pipeline().viewer().focus_m - start.focus_m).norm(), 1e-6);
 }
 
+// Lines lie in the surface about which the points scatter: they are seen all the same, and of two
+// in one place both are. What stands before them still hides them.
+TEST_F(CloudViewTest, LinesAreSeenAmongThePointsTheyLieIn) {
+  Random random(2);
+  const auto rough_wall = [&](double distance_m) {
+    auto cloud = std::make_shared<Cloud>(*wall(300'000));
+    for (Eigen::Vector3f& p : cloud->points_m)
+      p.x() = static_cast<float>(distance_m + 0.02 * random.normal());
+    return cloud;
+  };
+  const auto pixels = [&](const std::array<double, 3>& color) {
+    const QImage image = view_.canvas()->grabFramebuffer();
+    const QColor wanted = QColor::fromRgbF(
+        static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2]));
+    int out = 0;
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) {
+        const QColor at = image.pixelColor(x, y);
+        out += std::abs(at.red() - wanted.red()) + std::abs(at.green() - wanted.green()) +
+                   std::abs(at.blue() - wanted.blue()) <
+               12;
+      }
+    }
+    return out;
+  };
+  const std::array<double, 3> orange{1.0, 0.6, 0.0};
+  const std::array<double, 3> blue{0.15, 0.55, 1.0};
+  const std::vector<Eigen::Vector3d> square{
+      {3, -0.5, -0.5}, {3, 0.5, -0.5}, {3, 0.5, 0.5}, {3, -0.5, 0.5}};
+  view_.setScene(scene_of(rough_wall(3.0)));
+  view_.setPointSize(3.0);
+  view_.setLines({{square, blue, true}, {square, orange, true, CloudLineWidth::kBroad}});
+  view_.look(CloudViewpoint::kSensor);
+  QTest::qWait(50);
+  ASSERT_TRUE(settle());
+  const Eigen::Matrix4d clip = view_.canvas()->pipeline().clipFromWorld();
+  const auto in_view = [&](const Eigen::Vector3d& p) {
+    const Eigen::Vector4d c = clip * p.homogeneous();
+    return c.y() / c.w();
+  };
+  const double side_px =
+      0.5 * view_.canvas()->height() * std::abs(in_view(square[2]) - in_view(square[1]));
+  ASSERT_GT(side_px, 40.0);
+  EXPECT_GT(pixels(blue), 0.9 * 4.0 * side_px);
+  EXPECT_GT(pixels(orange), 0.9 * 4.0 * side_px);
+  view_.setScene(scene_of(rough_wall(2.0)));
+  view_.look(CloudViewpoint::kSensor);
+  ASSERT_TRUE(settle());
+  EXPECT_LT(pixels(blue), 0.2 * 4.0 * side_px);
+}
+
+TEST_F(CloudViewTest, MarksStayWhenThePointsAreColouredAnew) {
+  const auto cloud = wall(50'000);
+  const auto scene = scene_of(cloud);
+  view_.setScene(scene);
+  view_.look(CloudViewpoint::kSensor);
+  ASSERT_TRUE(settle());
+  const auto magenta = [&] {
+    const QImage image = view_.canvas()->grabFramebuffer();
+    int out = 0;
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) {
+        const QColor at = image.pixelColor(x, y);
+        out += at.red() > 240 && at.green() < 100 && at.blue() > 160;
+      }
+    }
+    return out;
+  };
+  EXPECT_EQ(magenta(), 0);
+  view_.setHighlights({10, 20});
+  ASSERT_TRUE(settle());
+  const int marked = magenta();
+  EXPECT_GT(marked, 20);
+  CloudSceneInput input;
+  input.full = cloud;
+  input.color = CloudColor::kHeight;
+  view_.setScene(build_cloud_scene(input, {}));
+  QTest::qWait(50);
+  ASSERT_TRUE(settle());
+  EXPECT_NEAR(magenta(), marked, 0.2 * marked);
+  view_.setHighlights({});
+  ASSERT_TRUE(settle());
+  EXPECT_EQ(magenta(), 0);
+}
+
 // Whole before the board is found, and the board large in the middle from then on; a viewer who has
 // turned away stays where he is when the same cloud is coloured anew.
 TEST_F(CloudViewTest, TheBoardIsFramedOnceItIsFound) {
@@ -191,8 +276,22 @@ TEST_F(CloudViewTest, TheBoardIsFramedOnceItIsFound) {
   found->board_center_m = {3.0, 1.2, -0.8};
   found->board_radius_m = 0.5;
   found->board_normal = -Eigen::Vector3d::UnitX();
+  std::vector<Eigen::Vector3d> places;
+  const Eigen::Vector3d start = view_.canvas()->pipeline().viewer().eye_m;
+  QObject::connect(view_.canvas(), &CloudCanvas::begun, &view_,
+                   [&] { places.push_back(view_.canvas()->pipeline().viewer().eye_m); });
   view_.setScene(found);
   ASSERT_TRUE(settle());
+  view_.canvas()->disconnect(&view_);
+  // It is flown there: who looks on sees what comes into sight.
+  const Eigen::Vector3d end = view_.canvas()->pipeline().viewer().eye_m;
+  const double way_m = (end - start).norm();
+  EXPECT_GE(std::count_if(places.begin(), places.end(),
+                          [&](const Eigen::Vector3d& p) {
+                            return (p - start).norm() > 0.02 * way_m &&
+                                   (p - end).norm() > 0.02 * way_m;
+                          }),
+            3);
   const auto in_view = [&](const Eigen::Vector3d& p) {
     const Eigen::Vector4d clip = view_.canvas()->pipeline().clipFromWorld() * p.homogeneous();
     return Eigen::Vector2d(clip.x() / clip.w(), clip.y() / clip.w());
