@@ -69,14 +69,21 @@ void DemoTour::start() {
        run_button, [this] { return workspace_.result() || workspace_.busy(); }},
       {tr("The calibration runs; what it is at stands below on the left. Meanwhile the window can "
           "be used: the <b>Refinement</b> page shows how the circles are found."),
-       tab_bar, [this] { return workspace_.result() && !workspace_.busy(); }},
+       tab_bar,
+       [this] { return workspace_.result() && !workspace_.busy(); },
+       false,
+       {},
+       tr("The calibration has run. What it is at stands below on the left; meanwhile the window "
+          "can be used. The <b>Refinement</b> page shows how the circles were found.")},
       {tr("The calibration is done. Below on the right stands how far it can be trusted, and the "
           "mouse over it says why. Open the <b>Model</b> page to ask what the model misses."),
        tab_bar, on_model_page},
       {tr("The effects that may be missing are being tried; scenes held out decide. The best one "
           "comes first, with a sentence on what was seen and how sure that is."),
        widget(window_, "proposals"), [this] { return work_.ranking() != nullptr; }, true,
-       widgets_named(window_, {"proposal_text", "missing_verdict"})},
+       widgets_named(window_, {"proposal_text", "missing_verdict"}),
+       tr("The effects that may be missing have been tried; scenes held out decided. The best one "
+          "comes first, with a sentence on what was seen and how sure that is.")},
       {tr("The effect at the top of the list is the one that scenes held out speak for most. The "
           "orange curve is its pattern at the size found; the marks are what is measured."),
        widget(window_, "residual_plot"),

@@ -136,9 +136,9 @@ void CoachMarks::show_mark(int index) {
   current_ = index;
   const CoachMark& mark = marks_[static_cast<std::size_t>(index)];
   const bool last = index + 1 == static_cast<int>(marks_.size());
-  text_->setText(mark.text);
   count_->setText(QStringLiteral("%1/%2").arg(index + 1).arg(marks_.size()));
   const bool done = mark.done && mark.done();
+  say(mark, done);
   reader_goes_on_ = !mark.done || mark.reader_goes_on || done;
   next_->setVisible(reader_goes_on_);
   next_->setEnabled(!mark.done || done);
@@ -156,7 +156,12 @@ void CoachMarks::look() {
     return;
   }
   next_->setEnabled(done || !mark.done);
+  say(mark, done);
   place();
+}
+
+void CoachMarks::say(const CoachMark& mark, bool done) {
+  text_->setText(done && !mark.text_when_done.isEmpty() ? mark.text_when_done : mark.text);
 }
 
 QRect CoachMarks::on_window(const QWidget& widget) const {

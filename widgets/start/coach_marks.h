@@ -25,6 +25,8 @@ struct CoachMark {
   bool reader_goes_on = false;
   /// What else the text speaks of: the bubble lies over none of it.
   std::function<std::vector<QWidget*>()> also = {};
+  /// What it says in place of `text` once `done` is true; empty: the same.
+  QString text_when_done = {};
 };
 
 /// A small speech bubble that leads through a window: it frames a widget, says what to do there,
@@ -55,6 +57,7 @@ class CoachMarks : public QFrame {
  private:
   void show_mark(int index);
   void look();
+  void say(const CoachMark& mark, bool done);
   void place();
   [[nodiscard]] QRect on_window(const QWidget& widget) const;
   void retranslate();

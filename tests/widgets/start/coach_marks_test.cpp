@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "start/coach_marks.h"
 
+#include <QLabel>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTest>
@@ -62,6 +63,20 @@ TEST_F(Coach, WaitsForTheReaderWhereSomethingIsComputed) {
   EXPECT_EQ(marks_.current(), 0);
   button("coach_next")->click();
   EXPECT_EQ(marks_.current(), 1);
+}
+
+// What has been computed is not said to be going on.
+TEST_F(Coach, SaysSomethingElseOnceItIsDone) {
+  bool done = false;
+  const auto text = [&] { return marks_.findChild<QLabel*>()->text(); };
+  const CoachMark mark{"Trying", [&] { return &target_; }, [&] { return done; }, true, {}, "Tried"};
+  marks_.start({mark, {"Well done", [&] { return &target_; }, {}}});
+  EXPECT_EQ(text(), "Trying");
+  done = true;
+  EXPECT_TRUE(QTest::qWaitFor([&] { return text() == "Tried"; }, 5000));
+  marks_.start({mark});
+  EXPECT_EQ(text(), "Tried") << "when it is done already";
+  button("coach_next")->click();
 }
 
 // Done before it could be read: then it does not vanish.
