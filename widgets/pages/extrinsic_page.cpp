@@ -185,12 +185,25 @@ QStringList ExtrinsicPage::scenesBeyond() const {
 void ExtrinsicPage::takeThresholds() {
   const QStringList names = result_ ? scenesBeyond() : QStringList();
   const bool moved = bars_px_->threshold() || bars_mm_->threshold();
-  reject_->setEnabled(!names.isEmpty());
+  const auto left =
+      result_ ? std::count_if(result_->scenes.begin(), result_->scenes.end(),
+                              [&](const SceneResult& scene) {
+                                return scene.used &&
+                                       !names.contains(QString::fromStdString(scene.name));
+                              })
+              : 0;
+  reject_->setEnabled(!names.isEmpty() && left > 0);
   back_->setEnabled(moved);
   if (names.isEmpty()) {
     without_->setText(
         tr("Drag the dashed line down over the bars to see what the extrinsic would be without the "
            "scenes above it."));
+    Q_EMIT scenesPreviewDropped();
+    return;
+  }
+  if (left == 0) {
+    without_->setText(
+        tr("Too few: no scene would be left below the line. Drag it up to keep one or more."));
     Q_EMIT scenesPreviewDropped();
     return;
   }
@@ -205,7 +218,10 @@ void ExtrinsicPage::setScenesPreview(const CalibrationResult& present,
 }
 
 void ExtrinsicPage::setScenesError(const Error& error) {
-  without_->setText(core_text(error));
+  // What the other scenes cannot be solved for cannot be left out either.
+  reject_->setEnabled(false);
+  without_->setText(tr("Without %1 there is no result: %2")
+                        .arg(scenesBeyond().join(QStringLiteral(", ")), core_text(error.message)));
 }
 
 void ExtrinsicPage::watch(CategoryPlot* plot) {

@@ -99,6 +99,30 @@ TEST_F(ExtrinsicPageTest, ALineOverTheBarsAsksWhatTheResultIsWithoutTheScenesAbo
   EXPECT_FALSE(reject->isEnabled());
 }
 
+// Below all bars nothing would be left to solve, which is said in words, and no click leads there.
+TEST_F(ExtrinsicPageTest, ALineBelowAllBarsLeavesNoScene) {
+  page_.setResult(demo_.result);
+  QSignalSpy wanted(&page_, &ExtrinsicPage::scenesPreviewWanted);
+  auto* bars = page_.findChildren<BarPlot*>().front();
+  auto* label = page_.findChild<QLabel*>("without-scenes");
+  auto* reject = page_.findChild<QPushButton*>("reject-beyond");
+  while (bars->beyond().size() + 1 < demo_.result->scenes.size())
+    QTest::keyClick(bars, Qt::Key_Down);
+  EXPECT_TRUE(reject->isEnabled()) << "one is left";
+  // What the solve says of those that are left, without where they lie.
+  page_.setScenesError(Error::input(Message("needs more scenes"), "/data/rig"));
+  EXPECT_FALSE(reject->isEnabled());
+  EXPECT_TRUE(label->text().contains("needs more scenes"));
+  EXPECT_FALSE(label->text().contains("/data/rig")) << label->text().toStdString();
+  while (bars->beyond().size() < demo_.result->scenes.size()) QTest::keyClick(bars, Qt::Key_Down);
+  EXPECT_TRUE(label->text().contains("no scene would be left")) << label->text().toStdString();
+  EXPECT_FALSE(reject->isEnabled());
+  for (const QList<QVariant>& asked : wanted)
+    EXPECT_LT(asked[0].toStringList().size(), static_cast<qsizetype>(demo_.result->scenes.size()));
+  while (bars->beyond().size() == demo_.result->scenes.size()) QTest::keyClick(bars, Qt::Key_Up);
+  EXPECT_TRUE(reject->isEnabled());
+}
+
 TEST_F(ExtrinsicPageTest, WhatTheSolveRefusedStandsBesideItsBox) {
   auto changed = std::make_shared<CalibrationResult>(*demo_.result);
   NodeResidual& node = changed->extrinsic.scenes[1].nodes[2];
