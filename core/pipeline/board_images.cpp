@@ -85,15 +85,13 @@ double corner_rms_px(const std::vector<CornerObservation>& corners, const Camera
   return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, corners.size())));
 }
 
-Message stray_reason(double rms_px, double usual_px) {
-  // Five standard deviations of one corner, as all of an image's corners together hardly ever are,
-  // and more than the smear of a hand that is nearly still.
+Message stray_reason(double rms_px, double usual_px, double floor_px) {
+  // Five standard deviations of one corner, as all of an image's corners together hardly ever are.
   constexpr double kFactor = 5.0;
-  constexpr double kFloor_px = 0.3;
-  if (rms_px <= std::max(kFloor_px, kFactor * usual_px)) return {};
+  if (rms_px <= std::max(floor_px, kFactor * usual_px)) return {};
   return Message(
       "its corners miss the camera of the other images by %1 px RMS; was it taken in motion, or is "
-      "it of another board?",
+      "it of another board or camera?",
       formatted("%.2f", rms_px));
 }
 

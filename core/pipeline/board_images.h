@@ -53,7 +53,7 @@ double corner_rms_px(const std::vector<CornerObservation>& corners, const Camera
 
 /// Why an image is left out whose corners miss a camera that fits the others: it is of something
 /// else, moved, bent, another board or camera. Empty unless it misses by five times the usual, and
-/// by 0.3 px.
-Message stray_reason(double rms_px, double usual_px);
+/// by more than `floor_px`: the smear of a hand that is nearly still.
+Message stray_reason(double rms_px, double usual_px, double floor_px = 0.3);
 
 }  // namespace lvcalib

@@ -211,12 +211,8 @@ void judge_views(const Indices& use, CameraCalibration& out) {
   for (const std::size_t i : use) {
     for (const CornerObservation& c : out.images[i].view->corners) pixels.push_back(c.pixel);
   }
-  const auto parts = unreached_parts(pixels, out.camera);
-  if (!parts.empty()) {
-    warnings.push_back(Message(
-        "no board reached these parts of the image: %1; the distortion there is extrapolated",
-        joined(parts, ", ")));
-  }
+  const Message unreached = describe_unreached(unreached_parts(pixels, out.camera));
+  if (!unreached.empty()) warnings.push_back(unreached);
   if (out.replicate_px > 0.0 && out.noise_px > kMisfit_px &&
       out.noise_px > kMisfitFactor * out.replicate_px) {
     warnings.push_back(

@@ -96,6 +96,13 @@ std::vector<Message> unreached_parts(const std::vector<Eigen::Vector2d>& pixels,
   return out;
 }
 
+Message describe_unreached(const std::vector<Message>& parts) {
+  if (parts.empty()) return {};
+  return Message(
+      "no board reached these parts of the image: %1; the distortion there is extrapolated",
+      joined(parts, ", "));
+}
+
 CameraFigures camera_figures(const CameraCalibration& calibration) {
   Collector collected;
   for (const BoardImage& image : calibration.images) {

@@ -42,5 +42,7 @@ CameraFigures camera_figures(const CalibrationResult& result);
 /// Ninths of the image ("top left", …, row by row) that hold none of these pixels.
 std::vector<Message> unreached_parts(const std::vector<Eigen::Vector2d>& pixels,
                                      const Camera& camera);
+/// What that means for the distortion; empty where there are none.
+Message describe_unreached(const std::vector<Message>& parts);
 
 }  // namespace lvcalib

@@ -74,23 +74,58 @@ std::optional<IntrinsicsFit> fit_freely(const std::vector<CornerView>& views, co
   return other && (!fit || other->sigma_px < fit->sigma_px) ? other : fit;
 }
 
+// Σ of squared residuals of all corners' coordinates under a fit, px².
+double squares_of(const std::vector<CornerView>& views, const IntrinsicsFit& fit) {
+  double sum = 0.0;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    const double rms = corner_rms_px(*views[v].corners, fit.camera, fit.camera_from_board[v]);
+    sum += rms * rms * static_cast<double>(2 * views[v].corners->size());
+  }
+  return sum;
+}
+
+// By how much a view adds to the residuals of others, as an RMS of its corners' coordinates, px,
+// whatever camera all would agree on.
+double added_rms_px(const std::vector<CornerView>& others, const IntrinsicsFit& alone,
+                    const CornerView& view, const Camera& given) {
+  std::vector<CornerView> with = others;
+  with.push_back(view);
+  const auto together = fit_intrinsics(with, given, wide_intrinsics_sigma(given));
+  if (!together) return HUGE_VAL;
+  const double added = squares_of(with, *together) - squares_of(others, alone);
+  return std::sqrt(std::max(0.0, added) / (2.0 * static_cast<double>(view.corners->size())));
+}
+
 // Leaves out images of intrinsics/ that are of something else; one of them would spoil the camera
-// for all scenes. True if there was any.
+// for all scenes. A free camera can meet a single stray halfway, so that all images miss alike:
+// where the scenes alone give a camera, each image is asked by itself what it adds to their
+// residuals. True if there was any.
 bool drop_stray_images(CalibrationResult& result, const IntrinsicsFit& fit) {
+  constexpr std::size_t kFewestScenes = 3;
   const std::vector<CornerView> views = views_of(result);
+  const std::size_t scenes = views.size() - extra_views(result.intrinsics).size();
+  const std::vector<CornerView> of_scenes(views.begin(),
+                                          views.begin() + static_cast<std::ptrdiff_t>(scenes));
+  const Camera& given = result.intrinsics.given;
+  std::optional<IntrinsicsFit> alone;
+  if (scenes >= kFewestScenes)
+    alone = fit_intrinsics(of_scenes, given, wide_intrinsics_sigma(given));
   std::vector<double> rms_px;
   for (std::size_t v = 0; v < views.size(); ++v)
     rms_px.push_back(corner_rms_px(*views[v].corners, fit.camera, fit.camera_from_board[v]));
   const double usual = median(rms_px);
-  std::size_t next = views.size() - extra_views(result.intrinsics).size();
   bool any = false;
+  std::size_t next = scenes;
   for (BoardImage& image : result.intrinsics.extra_images) {
     if (!image.used()) continue;
-    image.reason = stray_reason(rms_px[next++], usual);
-    if (image.reason.empty()) continue;
+    const std::size_t v = next++;
+    const Message reason =
+        alone ? stray_reason(added_rms_px(of_scenes, *alone, views[v], given), alone->sigma_px, 0.0)
+              : stray_reason(rms_px[v], usual);
+    if (reason.empty()) continue;
     any = true;
-    result.warnings.push_back(
-        Message("%1: %2; left out", extra_image_name(image.path), image.reason));
+    image.reason = reason;
+    result.warnings.push_back(Message("%1: %2; left out", extra_image_name(image.path), reason));
   }
   return any;
 }

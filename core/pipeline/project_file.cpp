@@ -233,12 +233,12 @@ class Reader {
 
   Result<ProjectFile> read() {
     for (const auto step : {&Reader::header, &Reader::paths, &Reader::guess, &Reader::options,
-                            &Reader::scenes, &Reader::model}) {
+                            &Reader::scenes, &Reader::model, &Reader::frames}) {
       if (Status s = (this->*step)(); !s) return s.error();
     }
     auto unknown =
         file_.unknown_keys({"format", "version", "dataset", "use_crops", "guess", "options",
-                            "added_scenes", "scene_order", "scenes", "model"});
+                            "added_scenes", "scene_order", "scenes", "model", "frames"});
     out_.warnings.insert(out_.warnings.end(), unknown.begin(), unknown.end());
     return std::move(out_);
   }
@@ -389,6 +389,23 @@ class Reader {
     return Done{};
   }
 
+  Status frames() {
+    if (map_or_null("frames") == nullptr) return Done{};
+    auto section = file_.section("frames");
+    if (!section) return section.error();
+    ProjectFrames frames;
+    for (const auto& [key, name] :
+         {std::pair("lidar", &frames.lidar), std::pair("camera", &frames.camera)}) {
+      auto text = section->string(key);
+      if (!text) return text.error();
+      *name = *text;
+    }
+    const auto unknown = section->unknown_keys({"lidar", "camera"});
+    out_.warnings.insert(out_.warnings.end(), unknown.begin(), unknown.end());
+    out_.project.frames = std::move(frames);
+    return Done{};
+  }
+
   [[nodiscard]] const YamlValue* map_or_null(const char* key) const {
     const YamlValue* value = file_.root().find(key);
     return value == nullptr || value->kind == YamlValue::Kind::kNull ? nullptr : value;
@@ -432,6 +449,13 @@ std::string project_as_text(const Project& project, const fs::path& folder) {
   }
   emit_scenes(out, d);
   emit_model(out, project.model);
+  if (project.frames) {
+    out << YAML::Key << "frames" << YAML::Value << YAML::BeginMap;
+    out << YAML::Key << "lidar" << YAML::Value << YAML::DoubleQuoted << project.frames->lidar
+        << YAML::Auto;
+    out << YAML::Key << "camera" << YAML::Value << YAML::DoubleQuoted << project.frames->camera
+        << YAML::Auto << YAML::EndMap;
+  }
   out << YAML::EndMap;
   return std::string("# LV-Calib Workbench project; paths are relative to this file.\n") +
          out.c_str() + "\n";

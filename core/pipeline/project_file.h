@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,20 @@
 
 namespace lvcalib {
 
+/// What the user calls the frames of the two sensors in exports.
+struct ProjectFrames {
+  std::string lidar;
+  std::string camera;
+  bool operator==(const ProjectFrames&) const = default;
+};
+
 /// A project: where the dataset is and what the user decided about it. Stored as YAML text with
 /// paths relative to the project file.
 struct Project {
   std::filesystem::path dataset;  ///< Absolute.
   Decisions decisions;
-  std::vector<ModelDecision> model;  ///< What was done to the model of effects, in order.
+  std::vector<ModelDecision> model;          ///< What was done to the model of effects, in order.
+  std::optional<ProjectFrames> frames = {};  ///< None: nothing was said.
 };
 
 /// A project read from a file.

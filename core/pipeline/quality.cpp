@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "cloud/about_cloud.h"
 #include "model/row_covariates.h"
+#include "pipeline/camera_figures.h"
 #include "pipeline/diagnosis.h"
 #include "pipeline/verdict.h"
 
@@ -133,6 +134,24 @@ void judge_intrinsics(const CalibrationResult& result, Verdict& verdict) {
               : Message("the images contradict the intrinsics: %1, less than what matters",
                         found.what));
   }
+}
+
+// Where estimated intrinsics rest on no corner.
+void note_unreached(const CalibrationResult& result, Verdict& verdict) {
+  if (result.intrinsics.mode == IntrinsicsMode::kFixed) return;
+  std::vector<Eigen::Vector2d> pixels;
+  const auto add = [&](const BoardView& view) {
+    for (const CornerObservation& corner : view.corners) pixels.push_back(corner.pixel);
+  };
+  for (const SceneResult& scene : result.scenes) {
+    if (scene.used && scene.view) add(*scene.view);
+  }
+  for (const BoardImage& image : result.intrinsics.extra_images) {
+    if (image.used()) add(*image.view);
+  }
+  if (pixels.empty()) return;
+  const Message text = describe_unreached(unreached_parts(pixels, result.camera));
+  if (!text.empty()) verdict.note(text);
 }
 
 // Standard deviations along the worst axis: of the LiDAR's position and of the rotation. Directions
@@ -531,6 +550,7 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
     verdict.doubtful(Message("another assignment of the board is nearly as good (margin %1)",
                              formatted("%.1f", result.consensus.margin())));
   }
+  note_unreached(result, verdict);
   const bool told = note_missing_circles(result, verdict);
   // Behind what is wrong, which may be why they are weak.
   for (const Message& direction : x.weak_directions) verdict.doubtful(direction);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/intrinsics_stage.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -52,9 +53,19 @@ TEST(Calibrate, ImagesForTheCameraAloneNarrowItsIntrinsics) {
   }
   write("broken.png", "this is no image");
   fs::copy_file(data.path() / "scenes/A/image.png", data.path() / "intrinsics/copy.png");
+  // The same board before another camera: what all images would agree on is neither.
+  const auto another = simulation::Simulator::create(test::dataset_options(22, 1));
+  ASSERT_TRUE(another.ok());
+  write("another.png", *simulation::encode_png(another->simulate_scene(0, {})->image));
   const auto with = calibrate(data.open(), request, {});
   ASSERT_TRUE(with.ok()) << with.error().text();
-  EXPECT_EQ(with->intrinsics.extra_images.size(), 8U);
+  EXPECT_EQ(with->intrinsics.extra_images.size(), 9U);
+  EXPECT_EQ(
+      std::count_if(with->intrinsics.extra_images.begin(), with->intrinsics.extra_images.end(),
+                    [](const BoardImage& image) { return image.used(); }),
+      6);
+  EXPECT_THAT(with->warnings, Contains(HasSubstr("another.png: its corners miss the camera")));
+  EXPECT_THAT(without->warnings, Contains(HasSubstr("no board reached these parts")));
   EXPECT_THAT(with->warnings, Contains(HasSubstr("intrinsics/broken.png")));
   EXPECT_THAT(with->warnings, Contains(HasSubstr("intrinsics/copy.png")));
   for (Eigen::Index k = 0; k < 4; ++k) {

@@ -46,6 +46,7 @@ Project example(const fs::path& dataset) {
                    {ModelChange::kAdd, "formula:range:a*sin(2*\"x\")", {}},
                    {ModelChange::kHold, "range_walk", {0.1 + 0.2, -1e-9}},
                    {ModelChange::kSwitchOff, "range_walk", {}}};
+  project.frames = ProjectFrames{"velodyne: \"top\"", "cam0/optical"};
   return project;
 }
 
@@ -67,6 +68,21 @@ TEST(ProjectFile, ReadsBackExactlyAsWritten) {
   EXPECT_EQ(d.added_scenes, written.decisions.added_scenes);
   EXPECT_EQ(d.scene_order, written.decisions.scene_order);
   EXPECT_EQ(read->project.model, written.model);
+  EXPECT_EQ(read->project.frames, written.frames);
+}
+
+// Projects of before say nothing of them; half of them, or none, is refused with its line.
+TEST(ProjectFile, NamesOfFramesAreOptional) {
+  const std::string head = "format: lvcalib-project\nversion: 1\ndataset: d\n";
+  const auto without = project_from_text(head, "p.lvcalib");
+  ASSERT_TRUE(without.ok());
+  EXPECT_FALSE(without->project.frames.has_value());
+  EXPECT_EQ(project_as_text(without->project, ".").find("frames"), std::string::npos);
+  const auto with = project_from_text(head + "frames: {lidar: os1, camera: left}\n", "p.lvcalib");
+  ASSERT_TRUE(with.ok()) << with.error().text();
+  EXPECT_EQ(with->project.frames, (ProjectFrames{"os1", "left"}));
+  for (const char* text : {"frames: os1\n", "frames: {lidar: os1}\n", "frames: {lidar: [a]}\n"})
+    EXPECT_FALSE(project_from_text(head + text, "p.lvcalib").ok()) << text;
 }
 
 TEST(ProjectFile, AModelThatMakesNoSenseIsRefusedWithItsLine) {
