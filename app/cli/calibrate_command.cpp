@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "base/text.h"
 #include "calibration_arguments.h"
 #include "command.h"
 #include "report/result_file.h"
@@ -24,12 +25,14 @@ std::string summary_of(const CalibrationResult& result, const std::string& outpu
   std::snprintf(text, sizeof text,
                 "%s: %d of %zu scenes, t = [%.4f %.4f %.4f] ± [%.2f %.2f %.2f] mm, rotation ± "
                 "[%.2f %.2f %.2f] mrad, in total ± [%.2f %.2f %.2f] mm [%.2f %.2f %.2f] mrad, "
-                "%.3f px, %.3f mm",
+                "%.3f px",
                 verdict_of(result).c_str(), x.used_scenes, result.scenes.size(), t.x(), t.y(),
                 t.z(), 1e3 * sigma(0), 1e3 * sigma(1), 1e3 * sigma(2), 1e3 * sigma(3),
                 1e3 * sigma(4), 1e3 * sigma(5), 1e3 * total(0), 1e3 * total(1), 1e3 * total(2),
-                1e3 * total(3), 1e3 * total(4), 1e3 * total(5), x.rms_px, x.rms_mm);
-  return text + (" -> " + output);
+                1e3 * total(3), 1e3 * total(4), 1e3 * total(5), x.rms_px);
+  // A distance to circles that the clouds do not show is none.
+  const bool measured = x.uses_nodes() && x.rms_mm <= 1e3 * result.target.circle_radius_m;
+  return text + (measured ? formatted(", %.3f mm", x.rms_mm) : "") + " -> " + output;
 }
 
 // The ablation as lines of a table; a dash where there is nothing to hold out.

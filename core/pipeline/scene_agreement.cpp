@@ -323,7 +323,7 @@ bool judge_scans(const CalibrationResult& result, const QualityOptions& q, Verdi
           "the print lies displaced along the scan, by %1 µs of it; with that the extrinsic moves "
           "by %2 mm and %3 mrad: intensity or angle is read too late; find the effect with lvcalib "
           "discover",
-          formatted("%.1f ± %.1f", 1e6 * std::abs(fault.size), 1e6 * fault.sigma), move_mm,
+          formatted("%.2f ± %.2f", 1e6 * std::abs(fault.size), 1e6 * fault.sigma), move_mm,
           move_mrad));
       continue;
     }

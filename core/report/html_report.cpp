@@ -36,11 +36,12 @@ tr.best td { background: #e8f3ea; }
 svg.plot { width: 27rem; max-width: 100%; } svg.photo { width: 100%; max-width: 46rem; }
 figure { margin: .3rem 0; } .figures figure { width: 27rem; max-width: 100%; } figcaption, .note { color: #555; font-size: .88rem; }
 code, .hash { font: .82rem ui-monospace, monospace; overflow-wrap: anywhere; }
+@media screen and (max-width: 45rem) { table { display: block; overflow-x: auto; } }
 @page { margin: 16mm; }
 @media print { body { max-width: none; margin: 0; font-size: 9.5pt; }
   .verdict { border: 1px solid #000; print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   figure, table, svg { break-inside: avoid; } h2, h3 { break-after: avoid; }
-  .scene { break-before: page; } svg.plot, .figures figure { width: 8.4cm; } svg.photo { width: 11.5cm; }
+  .details, .scene { break-before: page; } svg.plot, .figures figure { width: 8.4cm; } svg.photo { width: 11.5cm; }
   .figures { gap: .4cm; } }
 )";
 
@@ -78,8 +79,8 @@ Result<HtmlReport> report_of(const std::string& text, const std::string& where,
   try {
     const auto model = model_in(text, where);
     const auto use = model ? std::optional(pose_use(*model)) : std::nullopt;
-    std::string body = verdict_section(result, use, day) + pose_section(result) +
-                       uncertainty_section(result) + methods_section(result);
+    std::string body = verdict_section(result, use, day) + "<div class=\"details\">\n" +
+                       pose_section(result) + uncertainty_section(result) + methods_section(result);
     const json scenes = result.at("scenes");
     for (std::size_t s = 0; s < scenes.size(); ++s) {
       if (context.stopped()) return Error::cancelled();
@@ -87,8 +88,8 @@ Result<HtmlReport> report_of(const std::string& text, const std::string& where,
                      Message("scene %1", scenes[s].value("name", "")));
       body += scene_section(result, scenes[s], report.warnings);
     }
-    body +=
-        response_section(result) + model_section(result, discovery) + provenance_section(result);
+    body += response_section(result) + model_section(result, discovery) +
+            provenance_section(result) + "</div>\n";
     report.html = page(result, body);
   } catch (const json::exception& e) {
     return Error::input(Message("this result lacks what a report shows: %1", e.what()), where,

@@ -55,7 +55,13 @@ std::string html_escaped(const std::string& text) {
 std::string shown(double value, int digits) {
   if (!std::isfinite(value)) return "–";
   char text[48];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  // 650, not 6.5e+02.
+  const double size = std::abs(value);
+  if (size >= std::pow(10.0, digits) && size < 1e6) {
+    std::snprintf(text, sizeof text, "%.0f", value);
+  } else {
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+  }
   return text;
 }
 
