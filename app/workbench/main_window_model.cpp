@@ -16,17 +16,20 @@ void MainWindow::connect_model() {
   const ModelWork* work = model_work_.get();
   connect(work, &ModelWork::started, this, [this] {
     status_->show_progress({}, 0.0, {});
+    show_quality();
     update_actions();
   });
+  connect(work, &ModelWork::ranking_changed, this, &MainWindow::show_quality);
   connect(work, &ModelWork::progressed, status_, &StatusLine::show_progress);
   connect(work, &ModelWork::ended, this, [this](const QString& message) {
     if (!workspace_->busy()) status_->show_idle(message);
+    show_quality();
     update_actions();
   });
   connect(work, &ModelWork::failed, this, [this](const Error& error) {
     // Too few scenes is no accident: the page says so.
     if (error.kind == ErrorKind::kUntrusted && model_work_->steps().empty()) {
-      pages_->model_page()->setReason(core_text(error));
+      pages_->model_page()->setReason(error.sentence());
       status_->show_idle(core_text(error.message));
     } else {
       show_error(error);
@@ -42,7 +45,13 @@ std::shared_ptr<const CalibrationResult> MainWindow::final_result() const {
 }
 
 void MainWindow::show_quality() {
-  status_->show_quality(final_result(), workspace_->up_to_date() && !model_work_->behind());
+  const auto ranking = model_work_->ranking();
+  const Missing missing = model_work_->busy()              ? Missing::kSought
+                          : !ranking                       ? Missing::kNotSought
+                          : ranking->speaks_against_good() ? Missing::kSomething
+                                                           : Missing::kNothing;
+  status_->show_quality(final_result(), workspace_->up_to_date() && !model_work_->behind(),
+                        missing);
 }
 
 void MainWindow::compare() {

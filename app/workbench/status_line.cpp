@@ -88,19 +88,25 @@ void StatusLine::show_idle(const QString& message) {
 }
 
 void StatusLine::show_quality(const std::shared_ptr<const CalibrationResult>& result,
-                              bool up_to_date) {
+                              bool up_to_date, Missing missing) {
   mark_->setVisible(result != nullptr);
   quality_->setVisible(result != nullptr);
   if (!result) return;
-  shown_ = !up_to_date                             ? Mark::kIdle
-           : result->quality == Quality::kGood     ? Mark::kGood
-           : result->quality == Quality::kDoubtful ? Mark::kDoubtful
-                                                   : Mark::kBad;
+  // What is missing makes a good result doubtful; until that is known it is neither.
+  const bool good = result->quality == Quality::kGood && missing != Missing::kSomething;
+  const bool bad = result->quality == Quality::kFailed;
+  const bool open = good && missing != Missing::kNothing;
+  shown_ = !up_to_date || open ? Mark::kIdle
+           : good              ? Mark::kGood
+           : bad               ? Mark::kBad
+                               : Mark::kDoubtful;
   draw_mark();
-  const QString word = result->quality == Quality::kGood       ? tr("good")
-                       : result->quality == Quality::kDoubtful ? tr("doubtful")
-                                                               : tr("failed");
-  QString text = up_to_date ? word : tr("%1 (out of date)").arg(word);
+  const QString word = good ? tr("good") : bad ? tr("failed") : tr("doubtful");
+  QString text = !up_to_date ? tr("%1 (out of date)").arg(word)
+                 : !open     ? word
+                 : missing == Missing::kSought
+                     ? tr("good so far; still looking for what is missing")
+                     : tr("good so far; nobody has looked for what is missing");
   QStringList more;
   if (!result->quality_reason.empty()) more << core_text(result->quality_reason);
   // Whose verdict it is.

@@ -13,6 +13,14 @@ class QProgressBar;
 
 namespace lvcalib::widgets {
 
+/// What a search has found to be missing in the model whose quality is shown.
+enum class Missing {
+  kNothing,  ///< Or nothing that matters.
+  kSomething,
+  kSought,     ///< The search is still going on.
+  kNotSought,  ///< There was no search, or it came to no end.
+};
+
 /// Stage, fraction and text of what runs; quality of what is there.
 class StatusLine : public QStatusBar {
   Q_OBJECT
@@ -22,7 +30,9 @@ class StatusLine : public QStatusBar {
   void show_progress(const QString& stage, double fraction, const QString& text);
   /// Nothing runs; `message` stays as the text.
   void show_idle(const QString& message);
-  void show_quality(const std::shared_ptr<const CalibrationResult>& result, bool up_to_date);
+  /// A result is called good, without more, only where nothing is missing in its model.
+  void show_quality(const std::shared_ptr<const CalibrationResult>& result, bool up_to_date,
+                    Missing missing);
   [[nodiscard]] QString text() const;
 
  protected:

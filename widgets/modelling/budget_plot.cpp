@@ -72,9 +72,9 @@ void BudgetPlot::setSteps(std::vector<ModelStepPtr> steps, std::size_t current) 
   rebuild();
 }
 
-void BudgetPlot::setNothingMissing(bool nothing) {
-  if (nothing == nothing_missing_) return;
-  nothing_missing_ = nothing;
+void BudgetPlot::setSomethingMissing(bool something) {
+  if (something == something_missing_) return;
+  something_missing_ = something;
   rebuild();
 }
 

@@ -20,9 +20,10 @@ class BudgetPlot : public PlotView {
   explicit BudgetPlot(QWidget* parent = nullptr);
   /// Steps from the base model; null ones are left out.
   void setSteps(std::vector<ModelStepPtr> steps, std::size_t current);
-  /// Whether the search says that nothing is missing in the step shown. What it leaves beyond the
-  /// scatter of independent rows (neighbours err alike) is then no error of the model, and not red.
-  void setNothingMissing(bool nothing);
+  /// Whether the search says that something is missing in the step shown. As long as it does not,
+  /// what is left beyond the scatter of independent rows (neighbours err alike) is not known to be
+  /// an error of the model, and not red.
+  void setSomethingMissing(bool something);
   /// The true T_camera_lidar, as of a simulation: the distance of every step to it stands beside
   /// the channels, mm (left bar) and mrad (right bar), each on its own scale.
   void setTruth(const std::optional<Rigid3>& camera_from_lidar);
@@ -38,7 +39,7 @@ class BudgetPlot : public PlotView {
   static BeyondNoise beyond_noise(const ChannelSummary& now);
   /// Whether a step's error in a channel is shown as one of the model.
   [[nodiscard]] bool is_wrong(const ChannelSummary& now, std::size_t step) const {
-    return !beyond_noise(now).is_chance() && !(nothing_missing_ && step == current_);
+    return !beyond_noise(now).is_chance() && (something_missing_ || step != current_);
   }
   static QColor noiseColor(const PlotColors& colors);
   static QColor explainedColor(const PlotColors& colors);
@@ -67,7 +68,7 @@ class BudgetPlot : public PlotView {
 
   std::vector<ModelStepPtr> steps_;
   std::size_t current_ = 0;
-  bool nothing_missing_ = false;
+  bool something_missing_ = false;
   std::optional<Rigid3> truth_;
   std::vector<QCPItemText*> figures_;  // Of this picture.
 };

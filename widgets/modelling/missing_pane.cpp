@@ -205,6 +205,11 @@ void MissingPane::setRanking(std::shared_ptr<const ModelRanking> ranking, bool h
   describe();
 }
 
+void MissingPane::setReason(const QString& reason) {
+  reason_ = reason;
+  updateVerdict();
+}
+
 void MissingPane::setPattern(const std::shared_ptr<const ResidualFigure>& figure) {
   pattern_->setFigure(figure, tr("its pattern cannot be seen"));
 }
@@ -328,7 +333,9 @@ void MissingPane::updateVerdict() {
   if (busy_) {
     verdict_->setText(tr("Looking for what is missing …"));
   } else if (!ranking_) {
-    verdict_->setText(has_model_ ? tr("Nobody has looked yet.") : tr("Run the calibration first."));
+    verdict_->setText(has_model_          ? tr("Nobody has looked yet.")
+                      : reason_.isEmpty() ? tr("Run the calibration first.")
+                                          : reason_);
   } else if (ranking_->nothing_missing()) {
     verdict_->setText(
         tr("<b>Nothing is missing</b> in the model, as far as these scenes can tell."));

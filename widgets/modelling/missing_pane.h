@@ -30,6 +30,8 @@ class MissingPane : public QWidget {
   ~MissingPane() override;
   /// `ranking` null: nobody has looked yet (or is looking: `busy`).
   void setRanking(std::shared_ptr<const ModelRanking> ranking, bool has_model, bool busy);
+  /// Why there is no model to look at; empty: there is no calibration yet.
+  void setReason(const QString& reason);
   /// The chosen effect's pattern; null: it leaves none.
   void setPattern(const std::shared_ptr<const ResidualFigure>& figure);
   /// The chosen proposal; null if none.
@@ -65,6 +67,7 @@ class MissingPane : public QWidget {
   void add();
 
   std::shared_ptr<const ModelRanking> ranking_;
+  QString reason_;
   bool has_model_ = false;
   bool busy_ = false;
   const void* described_ = nullptr;  // The proposal or structure whose text is shown.

@@ -18,6 +18,7 @@
 #include "runner/model_work.h"
 #include "style/swatch.h"
 #include "style/texts.h"
+#include "words/core_text.h"
 
 namespace lvcalib::widgets {
 
@@ -150,10 +151,8 @@ void ModelPage::connectWork() {
   connect(&work_, &ModelWork::ended, this, busy);
 }
 
-void ModelPage::setReason(const QString& reason) {
-  reason_ = reason.isEmpty()
-                ? tr("Run the calibration to see what its model explains and what it misses.")
-                : reason;
+void ModelPage::setReason(const Message& reason) {
+  reason_ = reason;
   takeSteps();
 }
 
@@ -170,8 +169,12 @@ void ModelPage::showEvent(QShowEvent* event) {
 void ModelPage::takeSteps() {
   const ModelStepPtr step = work_.step();
   const ModelStepPtr base = step ? work_.steps().front() : nullptr;
+  const QString told =
+      reason_.empty() ? tr("Run the calibration to see what its model explains and what it misses.")
+                      : core_text(reason_);
   const QString reason =
-      work_.busy() ? tr("The measurements are being collected and the model fitted …") : reason_;
+      work_.busy() ? tr("The measurements are being collected and the model fitted …") : told;
+  missing_->setReason(core_text(reason_));
   title_->setText(step ? QString() : reason);
   title_->setVisible(!title_->text().isEmpty());
   budget_->setSteps(work_.steps(), work_.current());
@@ -218,7 +221,7 @@ void ModelPage::describeSteps() {
 
 void ModelPage::takeRanking() {
   const auto ranking = work_.ranking();
-  budget_->setNothingMissing(ranking && ranking->nothing_missing());
+  budget_->setSomethingMissing(ranking && !ranking->nothing_missing());
   missing_->setRanking(work_.ranking(), work_.step() != nullptr, work_.busy());
 }
 
@@ -272,7 +275,7 @@ void ModelPage::retranslate() {
   compare_->setText(tr("Compare steps…"));
   compare_->setToolTip(
       tr("How far the pose moved between two steps, and the residuals of every scene at both"));
-  setReason({});
+  takeSteps();
 }
 
 }  // namespace lvcalib::widgets

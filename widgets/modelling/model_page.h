@@ -40,7 +40,7 @@ class ModelPage : public QWidget {
   ~ModelPage() override;
 
   /// Why there is no model; empty if there may be one.
-  void setReason(const QString& reason);
+  void setReason(const Message& reason);
   /// The true T_camera_lidar, where it is known: how far from it the steps are is shown as well.
   void setTruth(const std::optional<Rigid3>& camera_from_lidar);
 
@@ -72,7 +72,7 @@ class ModelPage : public QWidget {
 
   ModelWork& work_;
   FigureSource source_;
-  QString reason_;
+  Message reason_;  // Why there is no model; empty: there is no calibration yet.
   ModelStepPtr shown_;
   bool pattern_is_proposal_ = true;  // Else it is a question of what if.
   bool follow_pattern_ = false;      // Until the user looks elsewhere.

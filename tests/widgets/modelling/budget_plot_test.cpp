@@ -67,11 +67,11 @@ TEST(BudgetPlotTest, NothingIsRedWhereNothingIsMissing) {
     }
     return false;
   };
+  EXPECT_FALSE(is_red()) << "nobody has looked yet";
+  plot.setSomethingMissing(true);
   EXPECT_TRUE(is_red());
-  plot.setNothingMissing(true);
+  plot.setSomethingMissing(false);
   EXPECT_FALSE(is_red());
-  plot.setNothingMissing(false);
-  EXPECT_TRUE(is_red());
 }
 
 // Also in a low and narrow figure, whatever its neighbours need.

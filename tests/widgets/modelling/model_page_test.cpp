@@ -29,8 +29,17 @@ TEST(ModelPageTest, WithoutACalibrationItSaysWhatToDo) {
   EXPECT_TRUE(message->text().contains("Run the calibration"));
   EXPECT_FALSE(page.findChild<QPushButton*>("add_effect")->isEnabled());
   EXPECT_FALSE(page.findChild<QPushButton*>("find_all")->isEnabled());
-  page.setReason("not enough scenes");
+  // One truth on the whole page, and in the language that is chosen later.
+  const auto* missing = page.findChild<QLabel*>("missing_verdict");
+  EXPECT_EQ(missing->text(), "Run the calibration first.");
+  page.setReason(Message("not enough scenes"));
   EXPECT_EQ(message->text(), "not enough scenes");
+  EXPECT_EQ(missing->text(), "not enough scenes");
+  QEvent language(QEvent::LanguageChange);
+  QCoreApplication::sendEvent(&page, &language);
+  EXPECT_EQ(message->text(), "not enough scenes");
+  page.setReason({});
+  EXPECT_EQ(missing->text(), "Run the calibration first.");
   EXPECT_FALSE(work.busy());
 }
 

@@ -5,10 +5,14 @@
 #include <QPushButton>
 #include <QTabWidget>
 #include <QTemporaryDir>
+#include <QTimer>
 #include <QTreeWidget>
+#include <set>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <qcustomplot.h>
 
 #include "base/file_io.h"
 #include "modelling/budget_plot.h"
@@ -41,8 +45,12 @@ class Flow : public ::testing::Test {
   Flow() : settings_(folder_.path()), window_(settings_, answers_) {
     window_.resize(1500, 940);
     window_.show();
+    QObject::connect(&verdicts_, &QTimer::timeout, &window_, [this] { compare_verdicts(); });
+    verdicts_.start(5);
   }
   ~Flow() override {
+    verdicts_.stop();
+    for (const std::string& one : contradictions_) ADD_FAILURE() << one;
     window_.close();
     Runner::wait_for_workers(30'000);
   }
@@ -78,10 +86,33 @@ class Flow : public ::testing::Test {
     return {};
   }
 
+  // At every moment of every case: the verdict on the result, the list of what is missing and the
+  // bars of what is unexplained tell one story.
+  void compare_verdicts() {
+    const auto* quality = test::find<QLabel>(window_, "quality");
+    const auto* missing = test::find<QLabel>(window_, "missing_verdict");
+    const auto ranking = work().ranking();
+    const std::string beside =
+        quality->text().toStdString() + " | " + missing->text().toStdString();
+    if (quality->isVisible() && quality->text().endsWith(": good")) {
+      if (work().busy() || !ranking) contradictions_.insert("good and nobody knows yet: " + beside);
+      if (ranking && ranking->speaks_against_good())
+        contradictions_.insert("good beside what is missing: " + beside);
+    }
+    const auto* bars = test::find<BudgetPlot>(window_, "budget_plot");
+    for (int k = 0; !ranking && work().steps().size() == 1 && k < bars->itemCount(); ++k) {
+      const auto* bar = qobject_cast<QCPItemRect*>(bars->item(k));
+      if (bar != nullptr && bar->brush().color() == bars->colors().refused)
+        contradictions_.insert("red bars and nobody knows yet: " + beside);
+    }
+  }
+
   QTemporaryDir folder_;
   AppSettings settings_;
   test::Answers answers_;
   MainWindow window_;
+  QTimer verdicts_;
+  std::set<std::string> contradictions_;
 };
 
 TEST_F(Flow, TheDemosHiddenEffectIsFoundAddedTakenBackAndExported) {
@@ -207,12 +238,31 @@ TEST_F(Flow, TwoHiddenEffectsAreFoundOneAfterTheOther) {
   EXPECT_LT(mended, 0.5 * unexplained(Channel::kRange));
 }
 
+// With too few scenes for a model the whole page says so, and nothing asks for what is done.
+TEST_F(Flow, TooFewScenesAreSaidTheSameEverywhere) {
+  ASSERT_TRUE(open_and_run(small_rig(3, {}), false));
+  const auto* message = test::find<QLabel>(window_, "model_message");
+  const auto* missing = test::find<QLabel>(window_, "missing_verdict");
+  const auto* quality = test::find<QLabel>(window_, "quality");
+  test::click_scene(window_, "C", true);
+  if (!window_.workspace().up_to_date()) test::trigger(window_, "run");
+  ASSERT_TRUE(test::wait_for_result(window_));
+  ASSERT_TRUE(test::wait_until([&] { return !work().busy() && !work().step(); }, 60'000));
+  ASSERT_TRUE(message->isVisible());
+  EXPECT_THAT(message->text().toStdString(), HasSubstr("scenes"));
+  EXPECT_EQ(missing->text(), message->text());
+  EXPECT_THAT(missing->text().toStdString(), ::testing::Not(HasSubstr("Run the calibration")));
+  EXPECT_FALSE(quality->text().endsWith(": good")) << quality->text().toStdString();
+}
+
 TEST_F(Flow, WhereNothingIsHiddenThePageSaysSo) {
   test::Watchdog watchdog;
   ASSERT_TRUE(open_and_run(small_rig(4, {}), false));
   ASSERT_NE(work().ranking(), nullptr);
   for (const EffectProposal& p : work().ranking()->proposals)
     EXPECT_FALSE(p.suggested) << p.finding.id;
+  EXPECT_THAT(test::find<QLabel>(window_, "quality")->text().toStdString(),
+              ::testing::EndsWith(": good"));
   // Switching the covariate answers at once: the residuals are there.
   auto* plot = test::find<ResidualPlot>(window_, "residual_plot");
   auto* covariates = test::find<QComboBox>(window_, "covariate");
