@@ -388,6 +388,13 @@ void MainWindow::connect_results() {
   connect(results_, &ResultActions::logged, log_, &LogDock::append);
   connect(results_, &ResultActions::busy_changed, this, &MainWindow::update_actions);
   connect(results_, &ResultActions::rough_pose_wanted, workspace_.get(), &Workspace::set_guess);
+  workspace_->set_default_frames(
+      {settings_.lidar_frame().toStdString(), settings_.camera_frame().toStdString()});
+  connect(results_, &ResultActions::frames_changed, workspace_.get(),
+          [this](const FrameNames& names) {
+            workspace_->set_default_frames(names);
+            workspace_->set_frames(names);
+          });
   connect(results_, &ResultActions::done, this, [this](const QString& message) {
     if (!workspace_->busy()) status_->show_idle(message);
   });
@@ -395,6 +402,7 @@ void MainWindow::connect_results() {
 
 void MainWindow::take_opened() {
   const Dataset& dataset = workspace_->dataset();
+  results_->set_frames(workspace_->frames());
   const QString path = workspace_->project_path().isEmpty()
                            ? QString::fromStdString(dataset.path.string())
                            : workspace_->project_path();

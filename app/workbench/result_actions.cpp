@@ -37,13 +37,22 @@ ResultActions::ResultActions(Choices& choices, AppSettings& settings, QWidget& w
   });
 }
 
+void ResultActions::set_frames(const FrameNames& names) {
+  frames_ = names;
+  ++opened_;
+}
+
 void ResultActions::show(const std::shared_ptr<const CalibrationResult>& result) {
   if (!result) return;
   auto* dialog = new ResultsDialog(result, choices_, settings_.last_folder(), &window_);
-  dialog->set_frame_names(settings_.lidar_frame(), settings_.camera_frame());
+  dialog->set_frame_names(QString::fromStdString(frames_.lidar),
+                          QString::fromStdString(frames_.camera));
   connect(dialog, &ResultsDialog::frame_names_changed, this,
-          [this](const QString& lidar, const QString& camera) {
-            settings_.set_frame_names(lidar, camera);
+          [this, opened = opened_](const QString& lidar, const QString& camera) {
+            if (opened != opened_) return;
+            settings_.set_frame_names(lidar, camera);  // Of the next project, too.
+            frames_ = {lidar.toStdString(), camera.toStdString()};
+            Q_EMIT frames_changed(frames_);
           });
   connect(dialog, &ResultsDialog::failed, this, &ResultActions::failed);
   connect(dialog, &ResultsDialog::exported, this, [this](const QString& path) {
@@ -61,8 +70,7 @@ void ResultActions::write_report(const std::shared_ptr<const CalibrationResult>&
   QString path = choices_.file_to_export(&window_, suggestion, tr("HTML (*.html)"));
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".html");
-  report_.write(result, discovery, path,
-                {settings_.lidar_frame().toStdString(), settings_.camera_frame().toStdString()});
+  report_.write(result, discovery, path, frames_);
   Q_EMIT busy_changed();
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "dialogs/choices.h"
+#include "report/frame_names.h"
 #include "runner/comparison_work.h"
 #include "runner/report_writer.h"
 #include "start/app_settings.h"
@@ -22,6 +23,8 @@ class ResultActions : public QObject {
   /// `window` owns this and the dialogs; all three must outlive this.
   ResultActions(Choices& choices, AppSettings& settings, QWidget& window);
 
+  /// Something was opened, whose frames are called so.
+  void set_frames(const FrameNames& names);
   /// Nothing without a result.
   void show(const std::shared_ptr<const CalibrationResult>& result);
   /// Asks for a file and writes the report in the background.
@@ -54,6 +57,8 @@ class ResultActions : public QObject {
   void busy_changed();
   void logged(const QString& line);
   void failed(const lvcalib::Error& error);
+  /// The user calls the frames otherwise.
+  void frames_changed(const lvcalib::FrameNames& names);
   /// A rough pose was found by hand, or is to be forgotten.
   void rough_pose_wanted(const std::optional<lvcalib::Rigid3>& camera_from_lidar);
 
@@ -63,6 +68,8 @@ class ResultActions : public QObject {
   Choices& choices_;
   AppSettings& settings_;
   QWidget& window_;
+  FrameNames frames_;
+  int opened_ = 0;  // A dialog of what was open before names nothing of what is open now.
   ReportWriter report_;
 };
 

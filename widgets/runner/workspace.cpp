@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "report/exports.h"
 #include "runner/demo.h"
 #include "runner/run_story.h"
 #include "words/core_text.h"
@@ -47,7 +48,7 @@ Workspace::Workspace(const QString& data_folder, QObject* parent)
   });
   // After the stack has moved: while a command runs, it still has its old index.
   connect(&undo_, &QUndoStack::indexChanged, this, [this] {
-    set_dirty(!undo_.isClean() || unsaved_recovery_);
+    set_dirty(!undo_.isClean() || unsaved_recovery_ || unsaved_frames_);
     keep_or_clear_autosave();
   });
   connect(&autosave_, &Autosave::written, this, [this] {
@@ -63,7 +64,15 @@ Workspace::~Workspace() {
 }
 
 Project Workspace::project() const {
-  return {dataset_.path, decisions_, model_};
+  return {dataset_.path, decisions_, model_, ProjectFrames{frames_.lidar, frames_.camera}};
+}
+
+void Workspace::set_frames(const FrameNames& names) {
+  if (names == frames_) return;
+  frames_ = names;
+  unsaved_frames_ = true;
+  set_dirty(true);
+  keep_or_clear_autosave();
 }
 
 void Workspace::start(const Runner::Work& work) {
@@ -181,12 +190,18 @@ void Workspace::take_opened(Opening opening) {
   dataset_ = std::move(opening.opened.dataset);
   decisions_ = std::move(opening.project.decisions);
   model_ = std::move(opening.project.model);
+  frames_ = default_frames_;
+  // Names that no export takes are as good as none.
+  if (const auto& named = opening.project.frames;
+      named && check_frame_name(named->lidar) && check_frame_name(named->camera))
+    frames_ = {named->lidar, named->camera};
   project_path_ = opening.project_path;
   missing_.clear();
   for (const std::string& name : opening.opened.missing_scenes)
     missing_ << QString::fromStdString(name);
   state_ = {};
   up_to_date_ = false;
+  unsaved_frames_ = false;
   undo_.clear();
   unsaved_recovery_ = opening.unsaved;
   set_dirty(opening.unsaved);
@@ -205,6 +220,7 @@ Status Workspace::save(const QString& path) {
   if (taken_up_) Autosave::discard(*taken_up_);
   taken_up_.reset();
   unsaved_recovery_ = false;
+  unsaved_frames_ = false;
   undo_.setClean();
   set_dirty(false);
   keep_or_clear_autosave();

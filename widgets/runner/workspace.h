@@ -12,6 +12,7 @@
 
 #include "pipeline/project_file.h"
 #include "pipeline/session.h"
+#include "report/frame_names.h"
 #include "runner/autosave.h"
 #include "runner/decision_command.h"
 #include "runner/runner.h"
@@ -50,6 +51,12 @@ class Workspace : public QObject {
   [[nodiscard]] bool busy() const { return runner_.running(); }
   [[nodiscard]] QUndoStack& undo_stack() { return undo_; }
   [[nodiscard]] Project project() const;
+  /// What the user calls the frames of this rig, which the project keeps.
+  [[nodiscard]] FrameNames frames() const { return frames_; }
+  /// Names for a project that has none.
+  void set_default_frames(const FrameNames& names) { default_frames_ = names; }
+  /// A word about exports: no step to undo, and kept with the project.
+  void set_frames(const FrameNames& names);
   /// What was done to the model of effects, in order; part of the project.
   [[nodiscard]] const std::vector<ModelDecision>& model() const { return model_; }
   /// To be called by commands on the undo stack.
@@ -141,6 +148,9 @@ class Workspace : public QObject {
   Dataset dataset_;
   Decisions decisions_;
   std::vector<ModelDecision> model_;
+  FrameNames frames_;
+  FrameNames default_frames_;
+  bool unsaved_frames_ = false;
   QStringList missing_;
   QString project_path_;
   std::unique_ptr<Opening> waiting_;  // A project whose dataset has moved.

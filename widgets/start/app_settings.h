@@ -37,7 +37,8 @@ class AppSettings {
   [[nodiscard]] QByteArray window_state() const;
   void set_window(const QByteArray& geometry, const QByteArray& state);
 
-  /// What the user calls the frames in exports; "lidar" and "camera" at first.
+  /// What the user called the frames last, for projects that have no names yet; "lidar" and
+  /// "camera" at first.
   [[nodiscard]] QString lidar_frame() const;
   [[nodiscard]] QString camera_frame() const;
   void set_frame_names(const QString& lidar, const QString& camera);

@@ -2,9 +2,12 @@
 #include <QDialog>
 #include <QDir>
 #include <QDoubleSpinBox>
+#include <QLineEdit>
 #include <QProcess>
 #include <QTemporaryDir>
 #include <filesystem>
+#include <functional>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -152,6 +155,61 @@ TEST_F(ProjectsTest, ScenesFromElsewhereJoinAndCanBeUndone) {
 }
 
 // The program itself is started, changed by its own autosave, and killed.
+// Two rigs have names of their own; what was said last is only offered to a rig without any.
+TEST_F(ProjectsTest, EveryProjectBringsTheNamesOfItsFrames) {
+  using Names = std::pair<QString, QString>;
+  const auto with_results = [&](const std::function<void(QWidget&)>& look) {
+    if (!window_->workspace().result()) ASSERT_TRUE(trigger(*window_, "run"));
+    ASSERT_TRUE(test::wait_for_result(*window_));
+    ASSERT_TRUE(trigger(*window_, "results"));
+    auto* dialog = find<QDialog>(*window_, "results_dialog");
+    ASSERT_NE(dialog, nullptr);
+    look(*dialog);
+    delete dialog;
+  };
+  const auto names = [&] {
+    Names out;
+    with_results([&](QWidget& dialog) {
+      out = {find<QLineEdit>(dialog, "lidar_frame")->text(),
+             find<QLineEdit>(dialog, "camera_frame")->text()};
+    });
+    return out;
+  };
+  const auto call = [&](const char* lidar) {
+    with_results([&](QWidget& dialog) {
+      auto* field = find<QLineEdit>(dialog, "lidar_frame");
+      field->selectAll();
+      QTest::keyClicks(field, QString::fromLatin1(lidar));
+    });
+  };
+  const auto save = [&](const char* name) {
+    answers_.save_as = path(name);
+    ASSERT_TRUE(trigger(*window_, "save_as"));
+    EXPECT_FALSE(window_->workspace().dirty());
+  };
+  open(dataset());
+  EXPECT_EQ(names(), Names("lidar", "camera"));
+  EXPECT_FALSE(window_->workspace().dirty()) << "looking names nothing";
+  call("roof");
+  EXPECT_TRUE(window_->workspace().dirty());
+  save("roof.lvcalib");
+  call("bumper");
+  save("bumper.lvcalib");
+  open(path("roof.lvcalib"));
+  EXPECT_FALSE(window_->workspace().dirty());
+  EXPECT_EQ(names(), Names("roof", "camera"));
+  EXPECT_FALSE(window_->workspace().dirty());
+  open(path("bumper.lvcalib"));
+  EXPECT_EQ(names(), Names("bumper", "camera"));
+  // A later session: a rig that is new starts with the last ones, a project with its own.
+  answers_.unsaved_answer = widgets::UnsavedAnswer::kDiscard;
+  make_window();
+  open(dataset());
+  EXPECT_EQ(names(), Names("bumper", "camera"));
+  open(path("roof.lvcalib"));
+  EXPECT_EQ(names(), Names("roof", "camera"));
+}
+
 TEST_F(ProjectsTest, DecisionsSurviveAKill) {
   window_.reset();
   QProcess child;
