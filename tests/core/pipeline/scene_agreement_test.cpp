@@ -92,6 +92,32 @@ TEST(SceneAgreement, ADriftIsNoBump) {
   EXPECT_THAT(said_of(scenes_that_see(6, drift, 1.0, 4, true)), IsEmpty());
 }
 
+// Of scenes that weigh alike; what all see together is where the solve ends.
+std::vector<std::string> leverage_of(std::size_t count, std::size_t odd, double by_m,
+                                     double scatter, std::uint64_t seed) {
+  CalibrationResult result = scenes_that_see(
+      count, [&](std::size_t s) { return by(s == odd ? by_m : 0.0); }, scatter, seed);
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(kGlobals);
+  for (const GlobalTerm& term : result.forward->terms)
+    mean += term.gradient / static_cast<double>(count);
+  for (GlobalTerm& term : result.forward->terms) term.gradient -= mean;
+  result.forward->dof = 1e4;
+  Verdict verdict(result);
+  judge_leverage(result, verdict);
+  std::vector<std::string> out;
+  for (const Message& reason : result.quality_reasons) out.push_back(reason.text());
+  return out;
+}
+
+TEST(SceneAgreement, AResultThatRestsOnOneSceneNamesIt) {
+  EXPECT_THAT(leverage_of(5, 2, 0.004, 1.0, 5),
+              ElementsAre(testing::AllOf(HasSubstr("without scene C the extrinsic moves by 0."),
+                                         HasSubstr("more than three of its standard deviations"))));
+  // Less than the tolerance matters to nobody; two scenes cannot tell.
+  EXPECT_THAT(leverage_of(5, 2, 0.0015, 0.0, 6), IsEmpty());
+  EXPECT_THAT(leverage_of(2, 1, 0.004, 1.0, 7), IsEmpty());
+}
+
 // One in a thousand each, whatever scenes differ by: 400 rigs, of which 3 are seen by chance once
 // in a hundred times.
 TEST(SceneAgreement, ScatterIsNoMotion) {
