@@ -293,6 +293,17 @@ void MainWindow::connect_pages() {
     edits.kept_patches.clear();
     workspace_->set_edits({{scene, edits}});
   });
+  connect(pages_, &PageStack::taken_back, this,
+          [this](const QString& scene, const SceneEdits& what) {
+            SceneEdits edits = decision_of(workspace_->decisions(), scene.toStdString()).edits;
+            std::erase_if(edits.tags, [&](int id) { return contains_id(what.tags, id); });
+            std::erase_if(edits.circles, [&](int id) { return contains_id(what.circles, id); });
+            std::erase_if(edits.patches_m, [&](const auto& patch) {
+              return std::find(what.patches_m.begin(), what.patches_m.end(), patch) !=
+                     what.patches_m.end();
+            });
+            workspace_->set_edits({{scene, edits}});
+          });
   connect(pages_, &PageStack::measurements_excluded, this,
           [this](const std::map<QString, SceneEdits>& more) {
             std::map<QString, SceneEdits> edits;
@@ -590,9 +601,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
   const QStringList paths = dropped_paths(*event->mimeData());
-  // Several are scenes for what is open.
-  if (paths.size() == 1 || (paths.size() > 1 && workspace_->is_open()))
-    event->acceptProposedAction();
+  if (!paths.isEmpty()) event->acceptProposedAction();
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
@@ -602,7 +611,11 @@ void MainWindow::dropEvent(QDropEvent* event) {
   if (paths.size() == 1) {
     open(paths.first());
   } else if (workspace_->is_open()) {
-    add_scenes(paths);
+    add_scenes(paths);  // Several are scenes for what is open.
+  } else {
+    status_->show_idle(
+        tr("Several at once are added as scenes to what is open, and nothing is open yet: drop one "
+           "folder, project or recording first."));
   }
 }
 

@@ -55,6 +55,7 @@ PageStack::PageStack(QWidget* parent)
             }
           });
   connect(response_, &ResponsePage::keepPatchWanted, this, &PageStack::keep_patch_wanted);
+  connect(response_, &ResponsePage::takenBack, this, &PageStack::taken_back);
   connect(response_, &ResponsePage::keptDropped, this, &PageStack::kept_dropped);
   connect(refinement_, &RefinementPage::keepWanted, this, &PageStack::keep_wanted);
   connect(response_, &ResponsePage::insistWanted, this, [this](const QString& name) {

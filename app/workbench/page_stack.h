@@ -74,6 +74,8 @@ class PageStack : public QStackedWidget {
   void keep_patch_wanted(const QString& scene, int id);
   /// What the program refused of a scene is to be left out again.
   void kept_dropped(const QString& scene);
+  /// What these edits leave out of a scene by hand is to be used again.
+  void taken_back(const QString& scene, const lvcalib::SceneEdits& what);
   /// Points and tags are to be left out of several scenes.
   void measurements_excluded(const std::map<QString, lvcalib::SceneEdits>& more);
   /// A patch of the board is to be left out of one scene.

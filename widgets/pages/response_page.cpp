@@ -89,13 +89,16 @@ QWidget* ResponsePage::createTables() {
   reasons_->setObjectName("response-reasons");
   reasons_->setOpenLinks(false);
   connect(reasons_, &QTextBrowser::anchorClicked, this, [this](const QUrl& what) {
-    // "scene:NAME", "back:NAME", "tag:ID/NAME", "circle:ID/NAME" or "patch:ID/NAME"
+    // "scene:NAME", "back:NAME", "tag:ID/NAME", "circle:ID/NAME" or "patch:ID/NAME"; "handtag:",
+    // "handcircle:" and "handpatch:" for what the user left out.
     const QString path = what.path(QUrl::FullyEncoded);
     const QString name = QUrl::fromPercentEncoding(path.section('/', -1).toUtf8());
     if (what.scheme() == QLatin1String("scene")) {
       Q_EMIT insistWanted(name);
     } else if (what.scheme() == QLatin1String("back")) {
       Q_EMIT keptDropped(name);
+    } else if (what.scheme().startsWith(QLatin1String("hand"))) {
+      takeBack(what.scheme(), name, path.section('/', 0, 0).toInt());
     } else if (what.scheme() == QLatin1String("patch")) {
       Q_EMIT keepPatchWanted(name, path.section('/', 0, 0).toInt());
     } else {
@@ -233,6 +236,7 @@ void ResponsePage::fillReasons() {
       }
       html += "</li>";
     }
+    for (const SceneResult& scene : result_->scenes) html += byHand(scene);
     // What is used all the same stays in the list that it was taken back from.
     for (const SceneResult& scene : result_->scenes) {
       const QString kept = kept_text(scene.edits);
@@ -247,6 +251,49 @@ void ResponsePage::fillReasons() {
                                    : "<ul>" + html + "</ul>");
 }
 
+// List items of what the user left out of a scene, each with a link that takes it back.
+QString ResponsePage::byHand(const SceneResult& scene) {
+  QString html;
+  const QString name = QString::fromStdString(scene.name);
+  const auto add = [&](const QString& what, const char* scheme, int id) {
+    html += QStringLiteral("<li>%1 %2 <a href=\"%3:%4/%5\">%6</a></li>")
+                .arg(what.toHtmlEscaped(), tr("left out by hand"), QString::fromLatin1(scheme))
+                .arg(id)
+                .arg(QString::fromUtf8(QUrl::toPercentEncoding(name)), tr("Take back"));
+  };
+  for (const int id : scene.edits.tags)
+    add(tr("Scene %1, corners of tag %2:").arg(name).arg(id), "handtag", id);
+  for (const int id : scene.edits.circles)
+    add(tr("Scene %1, circle %2:").arg(name).arg(id), "handcircle", id);
+  for (std::size_t k = 0; k < scene.edits.patches_m.size(); ++k) {
+    Eigen::AlignedBox2d box;
+    for (const Eigen::Vector2d& p : scene.edits.patches_m[k]) box.extend(p);
+    if (box.isEmpty()) continue;
+    add(tr("Scene %1, part of the board at x %2 to %3 m, y %4 to %5 m:")
+            .arg(name)
+            .arg(box.min().x(), 0, 'f', 2)
+            .arg(box.max().x(), 0, 'f', 2)
+            .arg(box.min().y(), 0, 'f', 2)
+            .arg(box.max().y(), 0, 'f', 2),
+        "handpatch", static_cast<int>(k));
+  }
+  return html;
+}
+
+void ResponsePage::takeBack(const QString& kind, const QString& name, int id) {
+  if (!result_) return;
+  for (const SceneResult& scene : result_->scenes) {
+    if (scene.name != name.toStdString()) continue;
+    SceneEdits what;
+    if (kind == QLatin1String("handtag")) what.tags = {id};
+    if (kind == QLatin1String("handcircle")) what.circles = {id};
+    const auto place = static_cast<std::size_t>(id);
+    if (kind == QLatin1String("handpatch") && place < scene.edits.patches_m.size())
+      what.patches_m = {scene.edits.patches_m[place]};
+    if (!what.empty()) Q_EMIT takenBack(name, what);
+  }
+}
+
 ResponseScope ResponsePage::scopeOf(int row) const {
   ResponseScope scope;
   if (!result_ || row < 0) return scope;
@@ -259,6 +306,14 @@ ResponseScope ResponsePage::scopeOf(int row) const {
     for (const Refusal& refusal : refusals(*result_)) {
       if (refusal.scene == response.scenes[s].name && refusal.what == Refusal::What::kPatch)
         scope.covered.push_back({refusal.board_m.min(), refusal.board_m.max()});
+    }
+    for (const SceneResult& scene : result_->scenes) {
+      if (scene.name != response.scenes[s].name) continue;
+      const SceneEdits& edits = scene.edits;
+      scope.left_out_m.insert(scope.left_out_m.end(), edits.patches_m.begin(),
+                              edits.patches_m.end());
+      scope.left_out_circles.insert(scope.left_out_circles.end(), edits.circles.begin(),
+                                    edits.circles.end());
     }
   }
   const auto address = [](const auto& found) { return found ? &*found : nullptr; };

@@ -43,6 +43,8 @@ class ResponsePage : public QWidget {
   void keepPatchWanted(const QString& scene, int id);
   /// What the program refused of a scene is to be left out again.
   void keptDropped(const QString& scene);
+  /// What these edits leave out of a scene by hand is to be used again.
+  void takenBack(const QString& scene, const lvcalib::SceneEdits& what);
   /// Returns on a part of the board are to be left out of a scene, or of every one (empty).
   void partExcluded(const QString& scene, const std::vector<Eigen::Vector2d>& patch_m);
 
@@ -56,6 +58,8 @@ class ResponsePage : public QWidget {
   void refresh();
   void fillTables();
   void fillReasons();
+  [[nodiscard]] static QString byHand(const SceneResult& scene);
+  void takeBack(const QString& kind, const QString& scene, int id);
   [[nodiscard]] static QString describe(const Refusal& refusal);
   void showScope(const ResponseScope& scope);
   void choosePart(const std::optional<BoardOutline>& part);

@@ -131,12 +131,12 @@ void add_circles(ImageOverlay& overlay, const CalibrationResult& result, const S
 void add_parts(ImageOverlay& overlay, const CalibrationResult& result, const SceneResult& scene) {
   const Rigid3 camera_from_board =
       result.extrinsic.camera_from_lidar.transform * scene.refinement->lidar_from_board;
-  for (const CoveredPart& part : covered_parts(result, scene)) {
+  for (const BoardPart& part : board_parts(result, scene)) {
     std::vector<Eigen::Vector3d> corners;
-    for (const Eigen::Vector2d& p : part.board_m.corners_m())
-      corners.emplace_back(p.x(), p.y(), 0.0);
-    overlay.parts.push_back(
-        {projected(corners, result.camera, camera_from_board), part.reason.empty()});
+    for (const Eigen::Vector2d& p : part.edge_m) corners.emplace_back(p.x(), p.y(), 0.0);
+    overlay.parts.push_back({projected(corners, result.camera, camera_from_board),
+                             part.use == BoardPart::Use::kKept,
+                             part.use == BoardPart::Use::kByHand});
   }
 }
 
@@ -165,14 +165,17 @@ bool has_extrinsic(const CalibrationResult& result) {
          result.extrinsic.camera_from_lidar.transform.translation.allFinite();
 }
 
-std::vector<CoveredPart> covered_parts(const CalibrationResult& result, const SceneResult& scene) {
-  std::vector<CoveredPart> out;
+std::vector<BoardPart> board_parts(const CalibrationResult& result, const SceneResult& scene) {
+  std::vector<BoardPart> out;
+  // First: in what is refused as well, it is what can be taken back.
+  for (const auto& patch : scene.edits.patches_m) out.push_back({patch, BoardPart::Use::kByHand});
   for (const Refusal& refusal : refusals(result)) {
-    if (refusal.scene == scene.name && refusal.what == Refusal::What::kPatch)
-      out.push_back(
-          {{refusal.board_m.min(), refusal.board_m.max()}, refusal.points, refusal.reason});
+    if (refusal.scene != scene.name || refusal.what != Refusal::What::kPatch) continue;
+    const BoardOutline board{refusal.board_m.min(), refusal.board_m.max()};
+    out.push_back({board.corners_m(), BoardPart::Use::kRefused, refusal.points, refusal.reason});
   }
-  for (const BoardOutline& kept : scene.edits.kept_patches) out.push_back({kept, 0, {}});
+  for (const BoardOutline& kept : scene.edits.kept_patches)
+    out.push_back({kept.corners_m(), BoardPart::Use::kKept});
   return out;
 }
 
@@ -262,9 +265,13 @@ std::vector<CloudLine> cloud_lines(const CalibrationResult& result, const SceneR
   if (scene.refinement) {
     add_board(lines, result.target, scene.refinement->lidar_from_board, kLidarColor,
               CloudLineWidth::kBroad, refused_circles(result, scene));
-    for (const CoveredPart& part : covered_parts(result, scene)) {
-      CloudLine line{{}, part.reason.empty() ? kKeptColor : kRefusedColor, true};
-      for (const Eigen::Vector2d& p : part.board_m.corners_m())
+    for (const BoardPart& part : board_parts(result, scene)) {
+      CloudLine line{{},
+                     part.use == BoardPart::Use::kKept      ? kKeptColor
+                     : part.use == BoardPart::Use::kRefused ? kRefusedColor
+                                                            : kLeftOutColor3d,
+                     true};
+      for (const Eigen::Vector2d& p : part.edge_m)
         line.points_m.emplace_back(scene.refinement->lidar_from_board *
                                    Eigen::Vector3d(p.x(), p.y(), 0.0));
       lines.push_back(std::move(line));

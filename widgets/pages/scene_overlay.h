@@ -16,13 +16,15 @@ namespace lvcalib::widgets {
 /// True if the result carries an extrinsic that can be projected with.
 bool has_extrinsic(const CalibrationResult& result);
 
-/// A part of a scene's board that something seems to cover.
-struct CoveredPart {
-  BoardOutline board_m;
-  std::size_t points = 0;  ///< Refused ones; none if it is used all the same.
-  Message reason;          ///< Why it is refused; empty if it is used all the same.
+/// A part of a scene's board that something seems to cover, or that is left out by hand.
+struct BoardPart {
+  enum class Use { kRefused, kKept, kByHand };
+  std::vector<Eigen::Vector2d> edge_m;
+  Use use = Use::kRefused;  ///< Kept: used all the same.
+  std::size_t points = 0;   ///< Refused ones.
+  Message reason = {};      ///< Why it is refused.
 };
-std::vector<CoveredPart> covered_parts(const CalibrationResult& result, const SceneResult& scene);
+std::vector<BoardPart> board_parts(const CalibrationResult& result, const SceneResult& scene);
 
 /// What the image view shows of a scene, without LiDAR points.
 ImageOverlay image_overlay(const CalibrationResult& result, const SceneResult& scene);

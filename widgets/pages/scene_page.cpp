@@ -319,10 +319,10 @@ QString ScenePage::refusalOfPoint(const Eigen::Vector3f& point_m) const {
   if (!among(shown->unused.refused_m)) return {};
   Cloud one;
   one.points_m = {point_m};
-  for (const CoveredPart& part : covered_parts(*result_, *scene)) {
+  for (const BoardPart& part : board_parts(*result_, *scene)) {
     SceneEdits patch;
-    patch.patches_m = {part.board_m.corners_m()};
-    if (!part.reason.empty() &&
+    patch.patches_m = {part.edge_m};
+    if (part.use == BoardPart::Use::kRefused &&
         !left_out_points(one, patch, result_->target, scene->refinement->lidar_from_board).empty())
       return tr(", left out: %1").arg(core_text(part.reason));
   }
@@ -333,20 +333,30 @@ QString ScenePage::refusalOfPoint(const Eigen::Vector3f& point_m) const {
   return {};
 }
 
-// A part of the board that something seems to cover, with all its points.
-void ScenePage::selectPart(const CoveredPart& part) {
+// A part of the board that something seems to cover or that is left out, with all its points.
+void ScenePage::selectPart(const BoardPart& part) {
   const SceneResult& scene = *current();
+  const bool by_hand = part.use == BoardPart::Use::kByHand;
   SceneEdits patch;
-  patch.patches_m = {part.board_m.corners_m()};
+  patch.patches_m = {part.edge_m};
+  const Cloud& cloud = by_hand ? scene.left_out_points : scene.board_points;
   SceneSelection selection;
-  for (const std::uint32_t i : left_out_points(scene.board_points, patch, result_->target,
-                                               scene.refinement->lidar_from_board))
-    selection.points_m.push_back(scene.board_points.points_m[i]);
+  for (const std::uint32_t i :
+       left_out_points(cloud, patch, result_->target, scene.refinement->lidar_from_board))
+    selection.points_m.push_back(cloud.points_m[i]);
+  const auto count = static_cast<int>(selection.points_m.size());
   select(std::move(selection), false);
-  selection_->setText(part.reason.empty() ? tr("Part of the board, used all the same")
-                                          : tr("Part of the board, %n points left out: %1", nullptr,
-                                               static_cast<int>(part.points))
-                                                .arg(core_text(part.reason)));
+  switch (part.use) {
+    case BoardPart::Use::kKept:
+      return selection_->setText(tr("Part of the board, used all the same"));
+    case BoardPart::Use::kByHand:
+      return selection_->setText(
+          tr("Part of the board, %n points left out by hand", nullptr, count));
+    case BoardPart::Use::kRefused:
+      return selection_->setText(
+          tr("Part of the board, %n points left out: %1", nullptr, static_cast<int>(part.points))
+              .arg(core_text(part.reason)));
+  }
 }
 
 void ScenePage::selectPixel(const QPointF& pixel) {
@@ -354,7 +364,7 @@ void ScenePage::selectPixel(const QPointF& pixel) {
   const bool shown = image_->view()->overlay().parts().unused;
   for (std::size_t k = 0; shown && k < overlay.parts.size(); ++k) {
     if (!overlay.parts[k].edge.containsPoint(pixel, Qt::OddEvenFill)) continue;
-    selectPart(covered_parts(*result_, *current())[k]);
+    selectPart(board_parts(*result_, *current())[k]);
     return;
   }
   const auto& scene = cloud_->view()->scene();

@@ -83,7 +83,7 @@ class ScenePage : public QWidget {
   void selectCircle(int id);
   void brushPoints(const std::vector<std::uint32_t>& points, bool add);
   void brushImage(const QPolygonF& line, bool add);
-  void selectPart(const CoveredPart& part);
+  void selectPart(const BoardPart& part);
   [[nodiscard]] QString refusalOfPoint(const Eigen::Vector3f& point_m) const;
   /// Makes this the selection, or adds it; shows it in both views and says so.
   void select(SceneSelection selection, bool add);

@@ -64,13 +64,17 @@ void draw_arrow(QPainter& painter, const QPointF& from, const QPointF& to, doubl
   painter.drawLine(to, to - head * u - 0.5 * head * n);
 }
 
+// Lines as far apart on the screen whatever the zoom.
+QBrush hatch_of(const QPainter& painter, const QColor& color) {
+  QBrush hatch = hatched(color);
+  hatch.setTransform(hatch.transform() * painter.worldTransform().inverted());
+  return hatch;
+}
+
 // Fills a shape with lines in the colour of why it is not used, and strikes it through.
 void strike(QPainter& painter, const QPolygonF& shape, bool left_out) {
   const QColor color = left_out ? kLeftOutColor : kUnusedColor;
-  QBrush hatch = hatched(color);
-  // Lines as far apart on the screen whatever the zoom.
-  hatch.setTransform(hatch.transform() * painter.worldTransform().inverted());
-  painter.setBrush(hatch);
+  painter.setBrush(hatch_of(painter, color));
   painter.setPen(cosmetic(painter, color, 1.6));
   painter.drawPolygon(shape);
   painter.setBrush(Qt::NoBrush);
@@ -169,13 +173,15 @@ void OverlayItem::paintUnusedPoints(QPainter& painter, double scale) const {
 }
 
 void OverlayItem::paintParts(QPainter& painter) const {
-  painter.setBrush(Qt::NoBrush);
   for (const ImageOverlay::Part& part : overlay_.parts) {
-    QPen pen = cosmetic(painter, part.used ? kTagColor : kUnusedColor, 1.8);
+    const QColor color = part.used ? kTagColor : part.left_out ? kLeftOutColor : kUnusedColor;
+    QPen pen = cosmetic(painter, color, 1.8);
     pen.setStyle(Qt::DashLine);
     painter.setPen(pen);
+    painter.setBrush(part.left_out ? hatch_of(painter, color) : QBrush(Qt::NoBrush));
     painter.drawPolygon(part.edge);
   }
+  painter.setBrush(Qt::NoBrush);
 }
 
 void OverlayItem::paintTags(QPainter& painter, double scale) const {

@@ -43,10 +43,11 @@ struct ImageOverlay {
   /// LiDAR points that the program refused, and that the user left out; drawn as crosses.
   std::vector<QPointF> refused_points;
   std::vector<QPointF> left_out_points;
-  /// Part of the board that something seems to cover.
+  /// Part of the board that something seems to cover, or that the user left out.
   struct Part {
     QPolygonF edge;
-    bool used = false;  ///< All the same.
+    bool used = false;      ///< All the same.
+    bool left_out = false;  ///< Because the user does not want it.
   };
   std::vector<Part> parts;
   struct Outline {

@@ -15,6 +15,9 @@ struct ResponseScope {
   std::vector<const SceneResponse*> scenes;
   std::vector<int> colors;            ///< Of each scene: its place in PlotColors::series().
   std::vector<BoardOutline> covered;  ///< Parts of their boards that something seems to cover.
+  /// Parts (polygons) and circles of their boards that are left out by hand.
+  std::vector<std::vector<Eigen::Vector2d>> left_out_m = {};
+  std::vector<int> left_out_circles = {};
   const TransitionFit* transition = nullptr;
   const ResponseStatistics* statistics = nullptr;
   Message reason;  ///< Why there are no statistics; empty otherwise.

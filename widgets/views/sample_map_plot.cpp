@@ -21,8 +21,8 @@ SampleMapPlot::SampleMapPlot(QWidget* parent) : BoardFigure(parent) {
     setToolTip(tr(
         "The board from the front with the returns about its circles (of many, some), blue "
         "those of the overlap region. Dashed red: circles that are left out in one "
-        "of the scenes shown; hatched: where something seems to cover the board; the reasons are "
-        "in the table below."));
+        "of the scenes shown; hatched: where something seems to cover the board; violet: what is "
+        "left out by hand. The reasons are in the table below."));
   });
   connect(selectionRect(), &QCPSelectionRect::accepted, this, [this](const QRect& rect) {
     const QRect r = rect.normalized();
@@ -46,10 +46,12 @@ void SampleMapPlot::setScope(const ResponseScope& scope) {
 void SampleMapPlot::rebuild() {
   clearFigure();
   drawOutlines([this](const TargetNode& node) {
+    if (isByHand(node.id)) return QPen(colors().left_out, 1.8, Qt::DashLine);
     return isRefused(node.id) ? QPen(colors().refused, 1.8, Qt::DashLine) : QPen(colors().axis);
   });
   for (const BoardOutline& part : scope_.covered)
     drawRectangle(part.lower_left_m, part.upper_right_m, hatched(colors().refused));
+  for (const auto& patch : scope_.left_out_m) drawPatch(patch);
   if (part_) {
     QColor marked = colors().emphasis;
     marked.setAlpha(60);
@@ -74,9 +76,11 @@ void SampleMapPlot::rebuild() {
                                       {Sign::kDot, colors().emphasis, tr("overlap region")}};
   const auto& nodes = target().nodes();
   if (std::any_of(nodes.begin(), nodes.end(),
-                  [&](const TargetNode& node) { return isRefused(node.id); }))
+                  [&](const TargetNode& node) { return isRefused(node.id) && !isByHand(node.id); }))
     entries.push_back({Sign::kDashed, colors().refused, tr("circles left out")});
   if (!scope_.covered.empty()) entries.push_back({Sign::kBox, colors().refused, tr("covered")});
+  if (!scope_.left_out_m.empty() || !scope_.left_out_circles.empty())
+    entries.push_back({Sign::kBox, colors().left_out, tr("left out by hand")});
   if (!samples.empty()) showLegend(std::move(entries));
   if (samples.empty())
     showMessage(scope_.reason.empty() ? tr("no data") : core_text(scope_.reason));
@@ -93,6 +97,21 @@ std::vector<QStringList> SampleMapPlot::tableRows() const {
                     csv_number(static_cast<double>(s->intensity)), s->overlap ? "1" : "0"});
   }
   return rows;
+}
+
+void SampleMapPlot::drawPatch(const std::vector<Eigen::Vector2d>& edge_m) {
+  auto* curve = new QCPCurve(xAxis, yAxis);
+  curve->setPen(QPen(colors().left_out));
+  curve->setBrush(hatched(colors().left_out));
+  for (std::size_t k = 0; k <= edge_m.size() && !edge_m.empty(); ++k) {
+    const Eigen::Vector2d p = kMmPerM * edge_m[k % edge_m.size()];
+    curve->addData(p.x(), p.y());
+  }
+}
+
+bool SampleMapPlot::isByHand(int id) const {
+  return std::find(scope_.left_out_circles.begin(), scope_.left_out_circles.end(), id) !=
+         scope_.left_out_circles.end();
 }
 
 bool SampleMapPlot::isRefused(int id) const {

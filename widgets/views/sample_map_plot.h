@@ -9,7 +9,7 @@
 namespace lvcalib::widgets {
 
 /// The board from the front (mm) with the samples about its circles: those inside and outside the
-/// overlap region, and circles that are left out.
+/// overlap region, circles and parts that are left out.
 class SampleMapPlot : public BoardFigure {
   Q_OBJECT
 
@@ -28,6 +28,8 @@ class SampleMapPlot : public BoardFigure {
  private:
   [[nodiscard]] std::vector<QStringList> tableRows() const;
   [[nodiscard]] bool isRefused(int id) const;
+  [[nodiscard]] bool isByHand(int id) const;
+  void drawPatch(const std::vector<Eigen::Vector2d>& edge_m);
 
   ResponseScope scope_;
   std::optional<BoardOutline> part_;

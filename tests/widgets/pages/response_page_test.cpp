@@ -143,6 +143,44 @@ TEST_F(ResponsePageTest, WhatThereIsNotIsSaid) {
   EXPECT_TRUE(page_.findChild<QLabel*>("response-message")->text().contains("Run the calibration"));
 }
 
+// What the user left out stands on the map and in the list with its reason, and comes back from
+// there.
+TEST_F(ResponsePageTest, WhatIsLeftOutByHandIsShownAndTakenBack) {
+  auto changed = std::make_shared<CalibrationResult>(*demo_.result);
+  SceneEdits& edits = changed->scenes[1].edits;
+  const Eigen::Vector2d middle = changed->target.outline().center_m();
+  edits.patches_m = {
+      {middle, middle + Eigen::Vector2d(0.1, 0.0), middle + Eigen::Vector2d(0.0, 0.1)}};
+  edits.circles = {4};
+  page_.setResult(changed);
+  auto* map = page_.findChild<SampleMapPlot*>();
+  const auto violet = [&] {
+    int out = 0;
+    for (int k = 0; k < map->plottableCount(); ++k) {
+      const auto* curve = qobject_cast<QCPCurve*>(map->plottable(k));
+      out += curve != nullptr && curve->pen().color() == map->colors().left_out;
+    }
+    return out;
+  };
+  EXPECT_EQ(violet(), 1);
+  table()->setCurrentCell(1, 0);
+  EXPECT_EQ(violet(), 0) << "of another scene";
+  table()->setCurrentCell(2, 0);
+  EXPECT_EQ(violet(), 1);
+  auto* list = page_.findChild<QTextBrowser*>("response-reasons");
+  EXPECT_TRUE(list->toPlainText().contains("Scene B, circle 4: left out by hand Take back"))
+      << list->toPlainText().toStdString();
+  QSignalSpy back(&page_, &ResponsePage::takenBack);
+  for (const char* link : {"handpatch:0/B", "handcircle:4/B"}) {
+    ASSERT_TRUE(list->toHtml().contains(QString("href=\"%1\"").arg(link)));
+    Q_EMIT list->anchorClicked(QUrl(link));
+  }
+  ASSERT_EQ(back.count(), 2);
+  EXPECT_EQ(back[0][0].toString(), "B");
+  EXPECT_EQ(back[0][1].value<SceneEdits>().patches_m, edits.patches_m);
+  EXPECT_EQ(back[1][1].value<SceneEdits>().circles, edits.circles);
+}
+
 // Samples that look wrong on the map are left out with their part of the board, of the scene chosen
 // in the table or of all.
 TEST_F(ResponsePageTest, APartOfTheBoardIsBrushedAndLeftOut) {

@@ -104,6 +104,25 @@ TEST_F(SceneOverlayTest, WhatTheSolveRefusedIsDrawnAsRefused) {
   EXPECT_EQ(changed, 1);
 }
 
+// Where on the board it lies, in the image and in space.
+TEST_F(SceneOverlayTest, PartsLeftOutByHandAreDrawnAsSuch) {
+  SceneResult scene = scene_;
+  const Eigen::Vector2d middle = result_.target.outline().center_m();
+  scene.edits.patches_m = {
+      {middle, middle + Eigen::Vector2d(0.1, 0.0), middle + Eigen::Vector2d(0.0, 0.1)}};
+  const ImageOverlay overlay = image_overlay(result_, scene);
+  ASSERT_EQ(overlay.parts.size(), 1U);
+  EXPECT_TRUE(overlay.parts[0].left_out);
+  EXPECT_FALSE(overlay.parts[0].used);
+  ASSERT_EQ(overlay.parts[0].edge.size(), 3);
+  const auto pixel = result_.camera.project(
+      result_.extrinsic.camera_from_lidar.transform *
+      (scene.refinement->lidar_from_board * Eigen::Vector3d(middle.x(), middle.y(), 0.0)));
+  ASSERT_TRUE(pixel);
+  EXPECT_NEAR(overlay.parts[0].edge[0].x(), pixel->x(), 1e-6);
+  EXPECT_EQ(cloud_lines(result_, scene).size(), cloud_lines(result_, scene_).size() + 1);
+}
+
 TEST_F(SceneOverlayTest, TheSuggestedBoxHoldsTheBoard) {
   const CropBox box = box_about_board(&result_, &scene_, {});
   for (const CloudLine& line : cloud_lines(result_, scene_)) {

@@ -255,6 +255,37 @@ TEST_F(ScenePageTest, WhatIsLeftOutIsShownAndTakenBack) {
   EXPECT_TRUE(edits[1][1].value<SceneEdits>().empty());
 }
 
+// As a tag is: a click on the hatched part says why, and takes it back.
+TEST_F(ScenePageTest, APartLeftOutByHandIsTakenBackInTheImage) {
+  load();
+  auto changed = std::make_shared<CalibrationResult>(*demo_.result);
+  SceneResult& scene = changed->scenes[1];
+  const Eigen::Vector2d middle = changed->target.outline().center_m();
+  const BoardOutline part{middle - Eigen::Vector2d(0.06, 0.02),
+                          middle + Eigen::Vector2d(0.06, 0.02)};
+  scene.edits.patches_m = {part.corners_m()};
+  scene.left_out_points = take_out(scene.board_points, scene.edits, changed->target,
+                                   scene.refinement->lidar_from_board);
+  ASSERT_GT(scene.left_out_points.size(), 10U);
+  page_.setResult(changed);
+  page_.setEdits(scene.edits);
+  ASSERT_TRUE(settle());
+  for (const char* name : {"show-tags", "show-circles"}) {
+    if (auto* action = page_.findChild<QAction*>(name)) action->setChecked(false);
+  }
+  const auto& parts = image().overlay().overlay().parts;
+  ASSERT_EQ(parts.size(), 1U);
+  QTest::mouseClick(image().viewport(), Qt::LeftButton, {},
+                    image().mapFromScene(parts[0].edge.boundingRect().center()));
+  EXPECT_TRUE(selection().contains("left out by hand")) << selection().toStdString();
+  auto* back = page_.findChild<QToolButton*>("take-back");
+  ASSERT_TRUE(back->isVisible());
+  QSignalSpy edits(&page_, &ScenePage::editsChanged);
+  QTest::mouseClick(back, Qt::LeftButton);
+  ASSERT_EQ(edits.count(), 1);
+  EXPECT_TRUE(edits[0][1].value<SceneEdits>().empty());
+}
+
 TEST_F(ScenePageTest, PointsBrushedInTheCloudAreThoseAboutTheBoard) {
   load();
   const SceneResult& scene = demo_.result->scenes[1];

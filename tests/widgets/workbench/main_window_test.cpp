@@ -51,6 +51,7 @@
 #include "views/image_view.h"
 #include "widgets/workbench/main_window_fixture.h"
 #include "workbench/page_stack.h"
+#include "workbench/status_line.h"
 
 namespace lvcalib::main_window_test {
 namespace {
@@ -443,6 +444,10 @@ TEST_F(MainWindowTest, APartOfTheBoardIsLeftOutOfOneSceneOrOfAll) {
   EXPECT_EQ(patches("C"), 1U);
   ASSERT_TRUE(trigger(*window_, "undo"));
   EXPECT_EQ(patches("A"), 0U);
+  SceneEdits back;
+  back.patches_m = {patch};
+  Q_EMIT page->takenBack("B", back);
+  EXPECT_EQ(patches("B"), 0U);
   ASSERT_TRUE(wait_until([&] { return !workspace().busy(); }));
 }
 
@@ -482,6 +487,22 @@ TEST_F(MainWindowTest, AFolderDroppedOnTheWindowOpensAndIsRemembered) {
   ASSERT_EQ(recent->count(), 1);
   Q_EMIT recent->itemActivated(recent->item(0));
   ASSERT_TRUE(wait_until([&] { return workspace().is_open(); }));
+}
+
+// With nothing open there is nothing that several could be scenes of: that is said.
+TEST_F(MainWindowTest, SeveralPathsDroppedOnTheWelcomePageAreAnswered) {
+  QTest::qWait(50);  // The window says nothing more of its own.
+  QMimeData mime;
+  mime.setUrls({QUrl::fromLocalFile(dataset()), QUrl::fromLocalFile(folder_.path())});
+  QDragEnterEvent enter(QPoint(10, 10), Qt::CopyAction, &mime, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(window_.get(), &enter);
+  EXPECT_TRUE(enter.isAccepted());
+  QDropEvent drop(QPointF(10, 10), Qt::CopyAction, &mime, Qt::LeftButton, Qt::NoModifier);
+  static_cast<QObject*>(window_.get())->event(&drop);
+  QTest::qWait(50);
+  EXPECT_FALSE(workspace().is_open());
+  const QString said = window_->findChild<widgets::StatusLine*>()->text();
+  EXPECT_TRUE(said.contains("drop one folder")) << said.toStdString();
 }
 
 TEST_F(MainWindowTest, ThemesAndLanguagesSwitchWhileOpen) {

@@ -142,12 +142,25 @@ void photograph_left_out(widgets::MainWindow& window, Photographer& camera, cons
   edits.tags = {scene.view->corners.front().feature_id};
   if (scene.refinement && !scene.refinement->nodes.empty())
     edits.circles = {scene.refinement->nodes.back().id};
+  if (scene.refinement && result.target.has_circles()) {
+    edits.patches_m = {ring_patch(result.target, 0, -1.0, 0.5)};
+    const Eigen::Vector2d middle = result.target.outline().center_m();
+    edits.patches_m.push_back(
+        BoardOutline{middle - Eigen::Vector2d(0.12, 0.16), middle + Eigen::Vector2d(0.1, -0.05)}
+            .corners_m());
+  }
   for (std::size_t i = 0; i < scene.board_points.size(); i += 40)
     edits.points_m.push_back(scene.board_points.points_m[i]);
   window.workspace().set_edits({{QString::fromStdString(scene.name), edits}});
   test::wait_until([&] { return window.workspace().up_to_date() && !window.workspace().busy(); });
   test::find<QTabWidget>(window, "pages")->setCurrentIndex(0);
   camera.take(QStringLiteral("left-out-") + theme);
+  auto* tabs = test::find<QTabWidget>(window, "pages");
+  for (const int page : {1, 3}) {
+    tabs->setCurrentIndex(page);
+    camera.take(QStringLiteral("left-out-%1-%2").arg(page + 1).arg(theme));
+  }
+  tabs->setCurrentIndex(0);
   window.workspace().undo_stack().undo();
   test::wait_until([&] { return window.workspace().up_to_date() && !window.workspace().busy(); });
 }
