@@ -3,6 +3,7 @@
 
 #include <QGridLayout>
 #include <QHeaderView>
+#include <QItemSelection>
 #include <QLabel>
 #include <QShortcut>
 #include <QSlider>
@@ -65,6 +66,10 @@ void RefinementPage::retranslate() {
   bins_->setHorizontalHeaderLabels(
       {tr("Angle (°)"), tr("Midpoint (mm)"), tr("σ (mm)"), tr("Samples"), tr("State")});
   bins_->setAccessibleName(tr("Angular bins of the chosen node"));
+  brush_->setText(tr("Brush"));
+  brush_->setToolTip(
+      tr("Draw a rectangle over samples in the large figure to select their bins. With Shift they "
+         "are added to those selected (L)"));
   exclude_bins_->setText(tr("Exclude these bins"));
   exclude_bins_->setToolTip(
       tr("Leave out the returns in the selected angular bins of this circle, and solve again"));
@@ -112,9 +117,11 @@ QWidget* RefinementPage::createDetail() {
   bins_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   bins_->setSelectionBehavior(QAbstractItemView::SelectRows);
   bins_->setSelectionMode(QAbstractItemView::ExtendedSelection);
-  connect(bins_, &QTableWidget::currentCellChanged, this,
-          [this](int row, int, int, int) { large_->setChosenBin(row); });
-  connect(bins_, &QTableWidget::itemSelectionChanged, this, &RefinementPage::updateDecisions);
+  connect(bins_, &QTableWidget::itemSelectionChanged, this, [this] {
+    large_->setChosenBins(selectedBins());
+    updateDecisions();
+  });
+  connect(large_, &AngleDistancePlot::binsBrushed, this, &RefinementPage::selectBins);
   layout->addWidget(large_, 3);
   layout->addWidget(verdict_);
   layout->addWidget(bins_, 2);
@@ -253,6 +260,12 @@ QWidget* RefinementPage::createDecisions() {
     button->setObjectName(QString::fromLatin1(name));
     layout->addWidget(button);
   };
+  add(brush_, "refinement-brush");
+  brush_->setCheckable(true);
+  auto* key = new QShortcut(QKeySequence(Qt::Key_L), this);
+  key->setContext(Qt::WidgetWithChildrenShortcut);
+  connect(key, &QShortcut::activated, brush_, &QToolButton::click);
+  connect(brush_, &QToolButton::toggled, this, [this](bool on) { large_->setBrushing(on); });
   add(exclude_bins_, "exclude-bins");
   add(exclude_circle_, "exclude-circle");
   add(take_back_, "take-back-circle");
@@ -280,6 +293,16 @@ std::vector<int> RefinementPage::selectedBins() const {
     rows.push_back(index.row());
   std::sort(rows.begin(), rows.end());
   return rows;
+}
+
+void RefinementPage::selectBins(const std::vector<int>& bins, bool add) {
+  QItemSelection selection;
+  const QAbstractItemModel* model = bins_->model();
+  for (const int bin : bins)
+    selection.select(model->index(bin, 0), model->index(bin, model->columnCount() - 1));
+  bins_->selectionModel()->select(
+      selection, add ? QItemSelectionModel::Select : QItemSelectionModel::ClearAndSelect);
+  if (!bins.empty()) bins_->scrollToItem(bins_->item(bins.front(), 0));
 }
 
 bool RefinementPage::isOfChosen(const std::vector<Eigen::Vector2d>& patch_m) const {
@@ -514,7 +537,7 @@ std::vector<bool> RefinementPage::binsByHand(const NodeRecord& record) const {
 
 void RefinementPage::updateDetail() {
   const NodeRecord* node = record(chosen_);
-  large_->setChosenBin(-1);
+  large_->setChosenBins({});
   large_->setTitle(node != nullptr ? nodeTitle(chosen_) : QString());
   large_->setRefused(node != nullptr && refused_.contains(chosen_), isByHand(chosen_));
   if (node != nullptr) {
@@ -561,6 +584,7 @@ void RefinementPage::updateDetail() {
 void RefinementPage::fillBins(const NodeRecord* record) {
   const QSignalBlocker blocker(bins_);
   bins_->setCurrentCell(-1, -1);
+  bins_->clearSelection();
   bins_->setRowCount(record != nullptr ? static_cast<int>(record->bins.size()) : 0);
   if (record == nullptr) return;
   // Columns that fit their contents are measured again at every cell that changes.

@@ -91,6 +91,7 @@ class RefinementPage : public QWidget {
   void excludeBins();
   void takeBack();
   [[nodiscard]] std::vector<int> selectedBins() const;
+  void selectBins(const std::vector<int>& bins, bool add);
   /// The patch covers nothing but some of the ring about the chosen circle.
   [[nodiscard]] bool isOfChosen(const std::vector<Eigen::Vector2d>& patch_m) const;
   void updateReplay();
@@ -124,6 +125,7 @@ class RefinementPage : public QWidget {
   AngleDistancePlot* large_ = nullptr;
   QLabel* verdict_ = nullptr;
   QTableWidget* bins_ = nullptr;
+  QToolButton* brush_ = nullptr;
   QToolButton* exclude_bins_ = nullptr;
   QToolButton* exclude_circle_ = nullptr;
   QToolButton* take_back_ = nullptr;

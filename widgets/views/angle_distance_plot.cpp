@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "views/angle_distance_plot.h"
 
+#include <QMouseEvent>
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "base/units.h"
@@ -30,7 +32,27 @@ AngleDistancePlot::AngleDistancePlot(QWidget* parent) : PlotView(parent) {
   addLayer("bands", layer("grid"), limBelow);
   figureActions()->setName("angle-distance");
   setCompact(false);
+  connect(selectionRect(), &QCPSelectionRect::accepted, this,
+          [this](const QRect& rect, const QMouseEvent* event) {
+            emitBrush(rect.normalized(), event->modifiers().testFlag(Qt::ShiftModifier));
+          });
   follow_language(this, [this] { retranslate(); });
+}
+
+void AngleDistancePlot::emitBrush(const QRect& rect, bool add) {
+  const auto count = static_cast<int>(data_.record.bins.size());
+  std::set<int> bins;
+  const auto take = [&](double angle_rad, double distance_m) {
+    const double angle_deg = kDegPerRad * angle_rad;
+    const QPointF place(xAxis->coordToPixel(angle_deg), yAxis->coordToPixel(kMmPerM * distance_m));
+    if (!QRectF(rect).contains(place)) return;
+    bins.insert(std::clamp(static_cast<int>((angle_deg + 180.0) / 360.0 * count), 0, count - 1));
+  };
+  if (count > 0) {
+    for (const NodeSample& s : data_.samples) take(s.angle_rad, s.distance_m);
+    for (const BinRecord& bin : data_.record.bins) take(bin.angle_rad, bin.midpoint_m);
+  }
+  Q_EMIT binsBrushed({bins.begin(), bins.end()}, add);
 }
 
 void AngleDistancePlot::retranslate() {
@@ -99,8 +121,9 @@ void AngleDistancePlot::clear(const QString& message) {
   rebuild();
 }
 
-void AngleDistancePlot::setChosenBin(int bin) {
-  chosen_bin_ = bin;
+void AngleDistancePlot::setChosenBins(std::vector<int> bins) {
+  if (bins == chosen_bins_) return;
+  chosen_bins_ = std::move(bins);
   rebuild();
 }
 
@@ -124,7 +147,8 @@ void AngleDistancePlot::drawBands() {
   const double width = count > 0 ? 360.0 / static_cast<double>(count) : 360.0;
   for (std::size_t k = 0; k < count; ++k) {
     const bool refused = data_.record.bins[k].state != BinState::kUsed;
-    const bool chosen = static_cast<int>(k) == chosen_bin_;
+    const bool chosen = std::find(chosen_bins_.begin(), chosen_bins_.end(), static_cast<int>(k)) !=
+                        chosen_bins_.end();
     if (!refused && !chosen) continue;
     QColor color = chosen ? colors().emphasis : isByHand(k) ? colors().left_out : colors().refused;
     color.setAlpha(chosen ? 70 : 38);

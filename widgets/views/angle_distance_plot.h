@@ -37,10 +37,14 @@ class AngleDistancePlot : public PlotView {
   /// Strikes the plot through: its circle is not used, perhaps because the user does not want it.
   void setRefused(bool refused, bool by_hand = false);
   [[nodiscard]] bool isRefused() const { return refused_; }
-  /// Emphasises one bin; −1: none.
-  void setChosenBin(int bin);
+  /// Emphasises these bins.
+  void setChosenBins(std::vector<int> bins);
 
   [[nodiscard]] const AngleDistanceData& data() const { return data_; }
+
+ Q_SIGNALS:
+  /// Bins of which a sample or the mark lies in a rectangle that was drawn; `add` to those chosen.
+  void binsBrushed(const std::vector<int>& bins, bool add);
 
  protected:
   void rebuild() override;
@@ -49,6 +53,7 @@ class AngleDistancePlot : public PlotView {
   static constexpr std::size_t kSmallSamples = 900;
 
   void retranslate();
+  void emitBrush(const QRect& rect, bool add);
   [[nodiscard]] bool isByHand(std::size_t bin) const;
   [[nodiscard]] QColor refusalColor() const;
   void drawBands();
@@ -67,7 +72,7 @@ class AngleDistancePlot : public PlotView {
   bool compact_ = false;
   bool refused_ = false;
   bool by_hand_ = false;
-  int chosen_bin_ = -1;
+  std::vector<int> chosen_bins_;
 };
 
 }  // namespace lvcalib::widgets

@@ -140,6 +140,49 @@ TEST_F(RefinementPageTest, BinsAndCirclesAreExcludedAndTakenBack) {
   EXPECT_TRUE(button("exclude-circle")->isEnabled());
 }
 
+TEST_F(RefinementPageTest, BinsAreBrushedInTheFigure) {
+  load();
+  page_.chooseNode(3);
+  QTest::qWait(50);
+  auto* large = page_.findChild<AngleDistancePlot*>("large-plot");
+  auto* brush = page_.findChild<QToolButton*>("refinement-brush");
+  const auto& records = refinement().history.back().nodes[3].bins;
+  const double width_deg = 360.0 / static_cast<double>(records.size());
+  const auto drag = [&](double from_bin, double to_bin, Qt::KeyboardModifiers modifiers) {
+    const auto at = [&](double bin, double share) {
+      const QRect box = large->axisRect()->rect();
+      return QPoint(static_cast<int>(large->xAxis->coordToPixel(-180.0 + bin * width_deg)),
+                    box.top() + static_cast<int>(share * box.height()));
+    };
+    QTest::mousePress(large, Qt::LeftButton, modifiers, at(from_bin, 0.02));
+    QTest::mouseMove(large, at(0.5 * (from_bin + to_bin), 0.5));
+    QTest::mouseMove(large, at(to_bin, 0.98));
+    QTest::mouseRelease(large, Qt::LeftButton, modifiers, at(to_bin, 0.98));
+  };
+  const auto chosen = [&] {
+    std::vector<int> rows;
+    for (const QModelIndex& index : bins()->selectionModel()->selectedRows())
+      rows.push_back(index.row());
+    std::sort(rows.begin(), rows.end());
+    return rows;
+  };
+  drag(4.2, 6.8, {});
+  EXPECT_TRUE(chosen().empty()) << "without the brush the figure is moved";
+  page_.setIteration(page_.iteration());
+  large->resetView();
+  brush->setChecked(true);
+  drag(4.2, 6.8, {});
+  EXPECT_EQ(chosen(), (std::vector<int>{4, 5, 6}));
+  drag(9.2, 9.8, Qt::ShiftModifier);
+  EXPECT_EQ(chosen(), (std::vector<int>{4, 5, 6, 9}));
+  drag(1.2, 1.8, {});
+  EXPECT_EQ(chosen(), std::vector<int>{1});
+  QSignalSpy wanted(&page_, &RefinementPage::editsWanted);
+  QTest::mouseClick(page_.findChild<QToolButton*>("exclude-bins"), Qt::LeftButton);
+  ASSERT_EQ(wanted.count(), 1);
+  EXPECT_EQ(wanted[0][1].value<SceneEdits>().patches_m.size(), 1U);
+}
+
 // Nobody but the user refused them, whatever the refinement finds in their place.
 TEST_F(RefinementPageTest, BinsLeftOutByHandAreNotCalledRefused) {
   auto changed = std::make_shared<CalibrationResult>(*demo_.result);
