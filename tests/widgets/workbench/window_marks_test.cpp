@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the window has to reach with six scenes of a quarter million points each: memory, and how
-// long it lets a click wait. The marks are 600 MB and 100 ms, the
-// latter told and not asserted: other machines have other clocks.
+// long it lets a click wait. The marks are 600 MB and 100 ms of its own work; both are told always
+// and asserted under LVCALIB_TIMINGS, as other machines have other clocks and libraries.
 #include <QComboBox>
 #include <QDialog>
 #include <QElapsedTimer>
@@ -20,6 +20,7 @@
 
 #include "runner/demo.h"
 #include "runner/memory.h"
+#include "support/timing.h"
 #include "views/cloud_scene_builder.h"
 #include "widgets/support/driver.h"
 
@@ -27,6 +28,9 @@ namespace lvcalib::window_marks_test {
 namespace {
 
 using widgets::MainWindow;
+
+constexpr double kMemoryMark_mb = 600.0;
+constexpr double kAnswerMark_ms = 100.0;
 
 // A number of /proc/self/status, in MB.
 double process_mb(const std::string& name) {
@@ -118,6 +122,11 @@ class WindowMarksTest : public ::testing::Test {
   test::Answers answers_;
   std::unique_ptr<widgets::AppSettings> settings_;
   std::unique_ptr<MainWindow> window_;
+  // Told whatever they are.
+  static void expect_below_mark(const char* what, double mb) {
+    std::printf("  %s: %.0f MB of %.0f\n", what, mb, kMemoryMark_mb);
+    if (test::timings_count()) EXPECT_LT(mb, kMemoryMark_mb) << what;
+  }
   double before_mb_ = 0.0;
 };
 
@@ -131,8 +140,8 @@ TEST_F(WindowMarksTest, SixScenesFitIntoMemory) {
               now_mb, peak_mb, before_mb_);
   RecordProperty("window_mb", static_cast<int>(now_mb));
   RecordProperty("window_peak_mb", static_cast<int>(peak_mb));
-  EXPECT_LT(now_mb, 600.0);
-  EXPECT_LT(peak_mb, 600.0);
+  expect_below_mark("after looking at everything", now_mb);
+  expect_below_mark("at most", peak_mb);
   // The measurements as an added effect sorts them are a second table of 55 MB.
   auto* tabs = test::find<QTabWidget>(*window_, "pages");
   tabs->setCurrentIndex(4);
@@ -151,8 +160,8 @@ TEST_F(WindowMarksTest, SixScenesFitIntoMemory) {
   std::printf("after adding an effect: %.0f MB, %.0f MB at most\n", added_mb, peak_added_mb);
   RecordProperty("added_mb", static_cast<int>(added_mb));
   RecordProperty("peak_added_mb", static_cast<int>(peak_added_mb));
-  EXPECT_LT(added_mb, 600.0);
-  EXPECT_LT(peak_added_mb, 600.0);
+  expect_below_mark("after adding an effect", added_mb);
+  expect_below_mark("at most, then", peak_added_mb);
 }
 
 // How long an added effect takes until every page has it, and what the window does not answer
@@ -198,6 +207,7 @@ TEST_F(WindowMarksTest, EveryClickIsAnswered) {
   test::Watchdog watchdog;
   double worst_ms = 0.0;
   double busiest_ms = 0.0;
+  std::string busiest;
   const auto answered = [&](const std::string& what, const std::function<void()>& click) {
     QTest::qWait(60);
     watchdog.take_largest_ms();
@@ -211,6 +221,7 @@ TEST_F(WindowMarksTest, EveryClickIsAnswered) {
       std::cout << "  " << gap << " ms after " << what << ", " << std::lround(work)
                 << " ms of them its own work\n";
     worst_ms = std::max(worst_ms, gap);
+    if (work > busiest_ms) busiest = what;
     busiest_ms = std::max(busiest_ms, work);
   };
   auto* tabs = test::find<QTabWidget>(*window_, "pages");
@@ -239,6 +250,8 @@ TEST_F(WindowMarksTest, EveryClickIsAnswered) {
   ASSERT_TRUE(test::wait_for_result(*window_));
   std::printf("slowest answer to a click: %.0f ms, of work: %.0f ms\n", worst_ms, busiest_ms);
   RecordProperty("slowest_answer_ms", static_cast<int>(worst_ms));
+  RecordProperty("busiest_answer_ms", static_cast<int>(busiest_ms));
+  EXPECT_LE(busiest_ms, test::time_limit(kAnswerMark_ms)) << busiest << " keeps the window busy";
 }
 
 }  // namespace
