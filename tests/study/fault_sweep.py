@@ -9,6 +9,8 @@ tells how long it takes, how much address space it needs and what it writes. The
 
 - it is killed (SIGKILL) at N moments drawn evenly over that time; every file of the result must be
   whole or absent, and json and yaml of one run;
+- commands that replace an older result are killed while that is there, too: it must stay as it was
+  or be replaced as a whole, and nothing unfinished may be left behind by the run after;
 - it runs with N limits of its address space, from what the program cannot even start with to what
   it needs; it must end by itself, with status 0, or 1 or 3 and one message;
 - it writes to a disk of so few kilobytes that it gets full; it must say so, status 3, and leave no
@@ -127,7 +129,8 @@ def spelled(value, text):
     return any(f"{value:.{digits}g}" in text for digits in range(6, 18))
 
 
-def killed(name, arguments, out, fresh, expected, moments, seconds, random_):
+def killed(name, arguments, out, fresh, expected, moments, seconds, random_, stays=frozenset()):
+    """`stays`: files, relative to `out`, that are there before and must be there after."""
     failures = []
     ended = 0
     for _ in range(moments):
@@ -140,6 +143,8 @@ def killed(name, arguments, out, fresh, expected, moments, seconds, random_):
             failures.append(f"status {status} after {after:.2f} s: {error.strip()}")
         if out.exists():
             failures += faults_of_files(out if out.is_dir() else out.parent, expected)
+        failures += [f"{path} is gone after {after:.2f} s" for path in sorted(stays)
+                     if not (out / path).exists()]
     print(f"| {name} | killed at {moments} moments | {moments - ended} before the end | "
           f"{'all files whole' if not failures else '; '.join(failures[:3])} |", flush=True)
     return not failures
@@ -235,6 +240,13 @@ def main():
                         done / "result.json", "-o", out / "fixed.pcd"],
             "import": ["import", pairs, "-o", out, "--target", target, "--camera", camera],
         }
+        # What stands where the command writes, if it replaces it.
+        older = {"calibrate": ["calibrate", rig, "-o", folder / "older-calibrate", "--tolerance",
+                               "3,1"],
+                 "import": ["import", pairs, "-o", folder / "older-import"]}
+        for words in older.values():
+            prepare(*words)
+        older["discover"] = older["calibrate"]
         for command, words in commands.items():
             arguments = [program, *map(str, words)]
 
@@ -253,6 +265,23 @@ def main():
             expected = {p.name for p in files}
             size = sum(p.stat().st_size for p in files)
             ok = killed(command, arguments, out, fresh, expected, options.moments, seconds, random_)
+            if command in older:
+                before = older[command][3]
+
+                def over_older():
+                    fresh()
+                    shutil.copytree(before, out)
+
+                force = ["--force"] if command == "import" else []
+                there = {p.relative_to(before) for p in before.rglob("*") if p.is_file()}
+                ok = killed(f"{command} over an older one", arguments + force, out, over_older,
+                            expected, options.moments, seconds, random_, there) and ok
+                over_older()
+                run(arguments + force, folder)
+                left = [p.name for p in folder.glob(f".{out.name}.part*")]
+                if left:
+                    print(f"| {command} over an older one | the run after | | leaves {left} |")
+                    ok = False
             ok = starved(command, arguments, out, fresh, expected, options.steps, peak) and ok
             fresh()
             if str(out) in arguments and size > 64 * KIB:
