@@ -84,6 +84,7 @@ void PageStack::add_pages(ModelWork& work, Choices& choices) {
   camera_->setChoices(choices);
   tabs_->addTab(camera_, {});
   connect(camera_, &CameraPage::failed, this, &PageStack::failed);
+  connect(camera_, &CameraPage::excludeWanted, this, &PageStack::measurements_excluded);
   connect(camera_, &CameraPage::datasetChanged, this, &PageStack::dataset_changed);
   connect(model_, &ModelPage::failed, this, &PageStack::failed);
   connect(&work, &ModelWork::changed, scene_, [this, &work] { scene_->setModel(work.step()); });

@@ -13,6 +13,7 @@
 #include <QSplitter>
 #include <QTabWidget>
 #include <QTextBrowser>
+#include <QToolButton>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -21,6 +22,7 @@
 #include "intrinsics/intrinsics_text.h"
 #include "modelling/residual_map_plot.h"
 #include "runner/scene_data.h"
+#include "style/edits_text.h"
 #include "style/texts.h"
 #include "views/image_view.h"
 #include "views/uncertainty_plots.h"
@@ -131,6 +133,19 @@ QWidget* CameraPage::createFigures() {
   tabs_->addTab(residuals_, {});
   tabs_->addTab(uncertainty_, {});
   tabs_->addTab(image_, {});
+  auto* tools = new QWidget(tabs_);
+  auto* row = new QHBoxLayout(tools);
+  row->setContentsMargins(0, 0, 0, 0);
+  exclude_ = new QToolButton(tools);
+  exclude_->setObjectName(QStringLiteral("camera_exclude"));
+  exclude_->hide();
+  brush_ = new QToolButton(tools);
+  brush_->setObjectName(QStringLiteral("camera_brush"));
+  brush_->setCheckable(true);
+  row->addWidget(exclude_);
+  row->addWidget(brush_);
+  tabs_->setCornerWidget(tools);
+  tools->setVisible(of_ == Of::kDataset);
   return tabs_;
 }
 
@@ -144,6 +159,17 @@ void CameraPage::connectParts() {
   connect(save_, &QPushButton::clicked, this, &CameraPage::save);
   connect(cancel_, &QPushButton::clicked, this, [this] { work_.cancel(); });
   connect(images_, &QTreeWidget::currentItemChanged, this, &CameraPage::showImage);
+  connect(brush_, &QToolButton::toggled, this, [this](bool on) {
+    residuals_->setBrushing(on);
+    if (on) tabs_->setCurrentWidget(residuals_);
+    clearBrush();
+  });
+  connect(residuals_, &ResidualMapPlot::brushed, this, &CameraPage::brush);
+  connect(exclude_, &QToolButton::clicked, this, [this] {
+    const std::map<QString, SceneEdits> more = brushed_;
+    clearBrush();
+    Q_EMIT excludeWanted(more);
+  });
   for (FigureActions* actions :
        {residuals_->figureActions(), uncertainty_->figureActions(), image_->figureActions()})
     connect(actions, &FigureActions::failed, this, &CameraPage::failed);
@@ -277,6 +303,7 @@ void CameraPage::ask() {
         return [this, made, view] {
           figures_ = made;
           residuals_->setView(view);
+          clearBrush();
           showFigures();
         };
       });
@@ -392,8 +419,54 @@ void CameraPage::showState() {
                              : result_ && result_->intrinsics.mode != IntrinsicsMode::kFixed;
   save_->setEnabled(estimated && choices_ != nullptr && !busy);
   shown_->setEnabled(alone_ != nullptr);
+  // The camera alone takes every image: nothing is left out of these.
+  brush_->setEnabled(!showsAlone() && result_ != nullptr);
+  if (!brush_->isEnabled()) brush_->setChecked(false);
   message_->setVisible(error_.has_value());
   message_->setText(error_ ? core_text(*error_) : QString());
+}
+
+// Images of scenes come first, in the result's order; others have no tags that could be left out.
+void CameraPage::brush(const QRectF& area_px) {
+  brushed_.clear();
+  std::vector<std::size_t> rows;
+  if (!figures_ || stale_ || showsAlone() || !result_) return;
+  const ResidualColumns& c = figures_->corners;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const Eigen::Vector2f at(c.covariates[0].values[k], c.covariates[1].values[k]);
+    const auto scene = static_cast<std::size_t>(c.scene[k]);
+    if (scene >= result_->scenes.size() || !result_->scenes[scene].view ||
+        !area_px.contains(QPointF(static_cast<double>(at.x()), static_cast<double>(at.y()))))
+      continue;
+    rows.push_back(k);
+    const SceneResult& from = result_->scenes[scene];
+    std::vector<int>& tags = brushed_[QString::fromStdString(from.name)].tags;
+    for (const CornerObservation& corner : from.view->corners) {
+      if (corner.pixel.cast<float>() == at && !contains_id(tags, corner.feature_id))
+        tags.push_back(corner.feature_id);
+    }
+  }
+  residuals_->setSelected(std::move(rows));
+  showBrushed();
+}
+
+void CameraPage::clearBrush() {
+  brushed_.clear();
+  residuals_->setSelected({});
+  showBrushed();
+}
+
+void CameraPage::showBrushed() {
+  std::size_t count = 0;
+  QStringList lines;
+  for (const auto& [scene, edits] : brushed_) {
+    count += edits.tags.size();
+    lines << tr("Scene %1: %2").arg(scene, ids_text(edits.tags));
+  }
+  exclude_->setVisible(count > 0);
+  exclude_->setText(tr("Exclude their tags (%1)").arg(count));
+  exclude_->setToolTip(tr("Leave out the tags of the corners selected, and solve again") +
+                       QLatin1Char('\n') + lines.join(QLatin1Char('\n')));
 }
 
 void CameraPage::changeEvent(QEvent* event) {
@@ -421,6 +494,11 @@ void CameraPage::retranslate() {
   save_->setToolTip(tr("The camera shown, with its standard deviations"));
   cancel_->setText(tr("Cancel"));
   images_->setHeaderLabels({tr("Image"), tr("corners"), tr("RMS, px"), tr("not used because")});
+  brush_->setText(tr("Brush"));
+  brush_->setToolTip(
+      tr("Draw a rectangle over corners in the residuals: their tags can be left out of their "
+         "scenes"));
+  showBrushed();
   tabs_->setTabText(0, tr("Residuals"));
   tabs_->setTabText(1, tr("Uncertainty"));
   tabs_->setTabText(2, tr("Image"));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QWidget>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -18,6 +19,7 @@ class QProgressBar;
 class QPushButton;
 class QTabWidget;
 class QTextBrowser;
+class QToolButton;
 class QTreeWidget;
 
 namespace lvcalib::widgets {
@@ -37,7 +39,8 @@ class UncertaintyMapPlot;
 
 /// The camera: its intrinsics with their standard deviations as given, as estimated with the
 /// extrinsic and from images alone; what speaks against them; every image with its residuals; the
-/// corners' residual field over the image, and how well a direction is known there.
+/// corners' residual field over the image, of which some can be brushed to leave out their tags,
+/// and how well a direction is known there.
 class CameraPage : public QWidget {
   Q_OBJECT
 
@@ -61,6 +64,8 @@ class CameraPage : public QWidget {
  Q_SIGNALS:
   /// The dataset's images, or its camera.yaml, have changed on disk.
   void datasetChanged();
+  /// Tags of which corners are selected are to be left out of these scenes.
+  void excludeWanted(const std::map<QString, lvcalib::SceneEdits>& more);
   void failed(const QString& message);
   void saved(const QString& path);
 
@@ -84,6 +89,9 @@ class CameraPage : public QWidget {
   void showImage();
   void showOverlay(int index);
   void showState();
+  void brush(const QRectF& area_px);
+  void clearBrush();
+  void showBrushed();
   [[nodiscard]] bool showsAlone() const;
   [[nodiscard]] std::filesystem::path pathOf(const CameraFigures::Image& image) const;
   [[nodiscard]] const Camera* shownCamera() const;
@@ -109,6 +117,9 @@ class CameraPage : public QWidget {
   QTextBrowser* text_ = nullptr;
   QTreeWidget* images_ = nullptr;
   QTabWidget* tabs_ = nullptr;
+  QToolButton* brush_ = nullptr;
+  QToolButton* exclude_ = nullptr;
+  std::map<QString, SceneEdits> brushed_;  // The tags of the corners selected, by scene.
   ResidualMapPlot* residuals_ = nullptr;
   UncertaintyMapPlot* uncertainty_ = nullptr;
   ImageView* image_ = nullptr;

@@ -6,7 +6,9 @@
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTemporaryDir>
+#include <QTest>
 #include <QTextBrowser>
+#include <QToolButton>
 #include <QTreeWidget>
 
 #include <gtest/gtest.h>
@@ -115,6 +117,44 @@ TEST_F(CameraPageTest, ShowsTheCameraThatWasTakenAsGiven) {
   ASSERT_TRUE(test::wait_until([&] { return !view->image().isNull(); }, 10'000));
   EXPECT_EQ(view->overlay().overlay().corners.size(),
             static_cast<std::size_t>(images()->topLevelItem(0)->text(1).toInt()));
+}
+
+// What is selected are the corners in the rectangle; what goes are their tags, in their scenes.
+TEST_F(CameraPageTest, CornersAreBrushedAndTheirTagsLeftOut) {
+  open(rig().fixed);
+  auto* brush = find<QToolButton>(page_, "camera_brush");
+  auto* exclude = find<QToolButton>(page_, "camera_exclude");
+  auto* map = page_.findChild<ResidualMapPlot*>();
+  ASSERT_TRUE(brush->isEnabled());
+  EXPECT_FALSE(exclude->isVisible());
+  QTest::qWait(50);
+  const SceneResult& scene = rig().fixed->scenes[1];
+  const CornerObservation& corner = scene.view->corners[5];
+  const QPoint at(static_cast<int>(map->xAxis->coordToPixel(corner.pixel.x())),
+                  static_cast<int>(map->yAxis->coordToPixel(corner.pixel.y())));
+  const auto drag = [&] {
+    QTest::mousePress(map, Qt::LeftButton, {}, at - QPoint(3, 3));
+    QTest::mouseMove(map, at);
+    QTest::mouseMove(map, at + QPoint(4, 4));
+    QTest::mouseRelease(map, Qt::LeftButton, {}, at + QPoint(4, 4));
+  };
+  brush->setChecked(true);
+  drag();
+  ASSERT_TRUE(exclude->isVisible());
+  QSignalSpy wanted(&page_, &CameraPage::excludeWanted);
+  exclude->click();
+  ASSERT_EQ(wanted.count(), 1);
+  const auto more = wanted[0][0].value<std::map<QString, SceneEdits>>();
+  const auto of_scene = more.find(QString::fromStdString(scene.name));
+  ASSERT_NE(of_scene, more.end());
+  EXPECT_TRUE(contains_id(of_scene->second.tags, corner.feature_id));
+  EXPECT_LT(of_scene->second.tags.size(), 5U) << "not those far away";
+  EXPECT_TRUE(of_scene->second.points_m.empty());
+  EXPECT_FALSE(exclude->isVisible());
+  drag();
+  EXPECT_TRUE(exclude->isVisible());
+  brush->setChecked(false);
+  EXPECT_FALSE(exclude->isVisible());
 }
 
 // While the image of what was there before is still being loaded.
