@@ -288,6 +288,42 @@ IntrinsicsContrast contrast_intrinsics(const IntrinsicsVector& estimated,
 
 namespace {
 
+// How far apart two cameras put a corner of the boards at most, px.
+double farthest_px(const Camera& one, const Camera& other, const std::vector<CornerView>& views) {
+  double most = 0.0;
+  for (const CornerView& view : views) {
+    for (const CornerObservation& c : *view.corners) {
+      const Eigen::Vector3d p =
+          view.camera_from_board * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0);
+      const auto a = one.project(p);
+      const auto b = other.project(p);
+      if (a && b) most = std::max(most, (*a - *b).norm());
+    }
+  }
+  return most;
+}
+
+// Programs list the coefficients of Brown's model (k1 k2 p1 p2 k3 here) in other orders: the one
+// that brings the given camera to a tenth of its distance from the fitted one, if any does.
+const char* order_that_fits(const Camera& given, const Camera& fitted, double apart_px,
+                            const std::vector<CornerView>& views) {
+  if (given.model != DistortionModel::kPlumbBob) return nullptr;
+  struct Order {
+    const char* name;
+    std::array<int, 5> at;  // Where each of k1 k2 p1 p2 k3 stands.
+  };
+  constexpr std::array<Order, 3> kOrders = {{{"p1 p2 k1 k2 k3", {2, 3, 0, 1, 4}},
+                                             {"k1 k2 k3 p1 p2", {0, 1, 3, 4, 2}},
+                                             {"k1 p1 k2 p2 k3", {0, 2, 1, 3, 4}}}};
+  for (const Order& order : kOrders) {
+    Camera listed = given;
+    for (std::size_t k = 0; k < order.at.size(); ++k)
+      listed.distortion(static_cast<Eigen::Index>(k)) = given.distortion(order.at[k]);
+    if (farthest_px(listed, fitted, views) < 0.1 * apart_px) return order.name;
+  }
+  return nullptr;
+}
+
 // The parts of one alternative.
 Message describe_parts(const IntrinsicsContrast& contrast, const Camera& given,
                        const std::vector<CornerView>& views) {
@@ -326,18 +362,13 @@ Message describe_parts(const IntrinsicsContrast& contrast, const Camera& given,
       case IntrinsicsPart::kDistortion: {
         Camera other = given;
         other.distortion += contrast.difference.tail<8>();
-        double most = 0.0;
-        for (const CornerView& view : views) {
-          for (const CornerObservation& c : *view.corners) {
-            const Eigen::Vector3d p =
-                view.camera_from_board * Eigen::Vector3d(c.board_m.x(), c.board_m.y(), 0.0);
-            const auto a = given.project(p);
-            const auto b = other.project(p);
-            if (a && b) most = std::max(most, (*a - *b).norm());
-          }
-        }
-        words.push_back(
-            Message("the distortion is off by up to %1 px on the boards", formatted("%.1f", most)));
+        const double most = farthest_px(given, other, views);
+        const Message off =
+            Message("the distortion is off by up to %1 px on the boards", formatted("%.1f", most));
+        const char* const order = order_that_fits(given, other, most, views);
+        words.push_back(order == nullptr
+                            ? off
+                            : Message("%1, as if its coefficients were listed as %2", off, order));
         break;
       }
     }

@@ -188,7 +188,13 @@ INSTANTIATE_TEST_SUITE_P(
                       WrongPart{"Center", IntrinsicsPart::kPrincipalPoint,
                                 [](Camera& c) { c.cx += 5.0; }, "principal point"},
                       WrongPart{"NoDistortion", IntrinsicsPart::kDistortion,
-                                [](Camera& c) { c.distortion.setZero(); }, "distortion"}),
+                                [](Camera& c) { c.distortion.setZero(); }, "px on the boards"},
+                      WrongPart{"TangentialFirst", IntrinsicsPart::kDistortion,
+                                [](Camera& c) {
+                                  std::swap(c.distortion(0), c.distortion(2));
+                                  std::swap(c.distortion(1), c.distortion(3));
+                                },
+                                "as if its coefficients were listed as p1 p2 k1 k2 k3"}),
     [](const auto& info) { return info.param.name; });
 
 // A tangential distortion that is hardly seen acts nearly as a shift of the principal point: both
