@@ -595,7 +595,7 @@ TEST_F(CloudViewTest, FiveMillionPointsTurnSmoothly) {
       gaps_ms.back());
   // The goal is 2 s and 50 ms; a machine that does other things at the same time is slower.
   EXPECT_LT(shown_ms, ::lvcalib::test::time_limit(8000));
-  EXPECT_LT(median_ms, ::lvcalib::test::time_limit(150.0));
+  EXPECT_LT(median_ms, ::lvcalib::test::time_limit(50.0));
 }
 
 TEST(CloudViewWithoutOpenGl, ShowsAMessageAndKeepsWorking) {
