@@ -273,5 +273,24 @@ TEST(CornerMisfit, OfFewCornersIsThatOfTheJointSolve) {
   EXPECT_EQ(corner_misfit(result)->px, 0.02);
 }
 
+// Boards that face the camera leave its focal length open: that is said, with the scene that would
+// tell; tilted and spread ones do not.
+TEST(Calibrate, SaysWhetherItsScenesVerifyTheCamera) {
+  const auto judged = [](int scenes, double tilt_deg) {
+    simulation::SimulationOptions options = test::dataset_options(31, scenes);
+    options.placement.max_tilt_deg = tilt_deg;
+    auto result = calibrate(test::SimulatedDataset(options).open(), {}, {});
+    EXPECT_TRUE(result.ok()) << result.error().text();
+    return std::move(*result);
+  };
+  const CalibrationResult open = judged(3, 12.0);
+  EXPECT_FALSE(open.verified);
+  EXPECT_THAT(open.warnings, Contains(HasSubstr("cannot verify the camera's intrinsics")));
+  EXPECT_THAT(open.warnings, Contains(HasSubstr("would tell")));
+  const CalibrationResult told = judged(6, 45.0);
+  EXPECT_TRUE(told.verified);
+  EXPECT_TRUE(told.unverified.empty());
+}
+
 }  // namespace
 }  // namespace lvcalib
