@@ -98,6 +98,13 @@
             <numerusform>%n measurements selected on the Model page</numerusform>
         </translation>
     </message>
+    <message numerus="yes">
+        <source>Part of the board, %n points left out by hand</source>
+        <translation>
+            <numerusform>Part of the board, %n point left out by hand</numerusform>
+            <numerusform>Part of the board, %n points left out by hand</numerusform>
+        </translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ThresholdPane</name>

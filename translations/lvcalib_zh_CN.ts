@@ -3790,10 +3790,6 @@ were saved. Take them up again?</source>
         <translation>其压缩数据包含 %1 字节，应为 %2 字节，对应 %3 个点</translation>
     </message>
     <message>
-        <source>its corners miss the camera of the other images by %1 px RMS; was it taken in motion, or is it of another board?</source>
-        <translation>其角点与由其他图像得到的相机相差 %1 px RMS；是在运动中拍摄的，还是另一块标定板的图像？</translation>
-    </message>
-    <message>
         <source>its image has %1 × %2 px, the camera&apos;s have %3 × %4</source>
         <translation>其图像为 %1 × %2 px，而相机的图像为 %3 × %4</translation>
     </message>
@@ -5189,6 +5185,22 @@ were saved. Take them up again?</source>
         <source>scene %1 contradicts the others only without %2: it is used, with that in the model</source>
         <translation>场景 %1 只在没有 %2 时才与其他场景矛盾：已使用它，并将其纳入模型</translation>
     </message>
+    <message>
+        <source>%1, as if its coefficients were listed as %2</source>
+        <translation>%1，好像其系数按 %2 的顺序列出</translation>
+    </message>
+    <message>
+        <source>its corners miss the camera of the other images by %1 px RMS; was it taken in motion, or is it of another board or camera?</source>
+        <translation>其角点与由其他图像得到的相机相差 %1 px RMS；是在运动中拍摄的，还是另一块标定板或另一台相机的图像？</translation>
+    </message>
+    <message>
+        <source>points %1 to %2 of %3 are nothing but zero bytes, as if a part of the file had been lost</source>
+        <translation>%3 个点中第 %1 至 %2 个全是零字节，文件似乎丢失了一部分</translation>
+    </message>
+    <message>
+        <source>scenes %1 are not used: %2</source>
+        <translation>场景 %1 未采用：%2</translation>
+    </message>
 </context>
 <context>
     <name>CoreWords</name>
@@ -6076,10 +6088,6 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
 <context>
     <name>lvcalib::widgets::AngleDistancePlot</name>
     <message>
-        <source>Signed distance from the circle (mm, outside positive) against the polar angle (degrees). Dots: LiDAR samples coloured by intensity. Marks: where the intensity crosses its middle level in each angular bin, ±1σ. Line: the fitted wave Δcu·cos ψ + Δcv·sin ψ + Δr. Shaded: refused bins.</source>
-        <translation>到圆的有符号距离（mm，向外为正）与极角（度）的关系。点：按强度着色的激光样本。标记：各角度区间内强度穿过中间值处，±1σ。曲线：拟合的波形 Δcu·cos ψ + Δcv·sin ψ + Δr。阴影：被拒绝的区间。</translation>
-    </message>
-    <message>
         <source>polar angle ψ (°)</source>
         <translation>极角 ψ (°)</translation>
     </message>
@@ -6102,6 +6110,14 @@ GPL-3.0-or-later（核心库：BSD-3-Clause）</translation>
     <message>
         <source>fitted wave</source>
         <translation>拟合波形</translation>
+    </message>
+    <message>
+        <source>Signed distance from the circle (mm, outside positive) against the polar angle (degrees). Dots: LiDAR samples coloured by intensity. Marks: where the intensity crosses its middle level in each angular bin, ±1σ. Line: the fitted wave Δcu·cos ψ + Δcv·sin ψ + Δr. Shaded: refused bins; violet and hatched: bins left out by hand.</source>
+        <translation>到圆的有符号距离（mm，向外为正）与极角（度）的关系。点：按强度着色的激光样本。标记：各角度区间内强度穿过中间值处，±1σ。曲线：拟合的波形 Δcu·cos ψ + Δcv·sin ψ + Δr。阴影：被拒绝的区间；紫色斜线：手动剔除的区间。</translation>
+    </message>
+    <message>
+        <source>left out by hand</source>
+        <translation>手动剔除</translation>
     </message>
 </context>
 <context>
@@ -6513,6 +6529,26 @@ RMS %4, noise %5, unexplained %6, held out %7 (%8)</source>
     <message>
         <source>Images of the board</source>
         <translation>标定板图像</translation>
+    </message>
+    <message>
+        <source>Scene %1: %2</source>
+        <translation>场景 %1：%2</translation>
+    </message>
+    <message>
+        <source>Exclude their tags (%1)</source>
+        <translation>排除其标签（%1）</translation>
+    </message>
+    <message>
+        <source>Leave out the tags of the corners selected, and solve again</source>
+        <translation>排除所选角点的标签，并重新求解</translation>
+    </message>
+    <message>
+        <source>Brush</source>
+        <translation>刷选</translation>
+    </message>
+    <message>
+        <source>Draw a rectangle over corners in the residuals: their tags can be left out of their scenes</source>
+        <translation>在残差图中的角点上画一个矩形：可在各自的场景中排除这些角点的标签</translation>
     </message>
 </context>
 <context>
@@ -7417,6 +7453,14 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
         <source>The calibration runs; what it is at stands below on the left. Meanwhile the window can be used: the &lt;b&gt;Refinement&lt;/b&gt; page shows how the circles are found.</source>
         <translation>标定正在进行，左下方显示进行到哪一步。其间窗口仍可使用：&lt;b&gt;精化&lt;/b&gt;页显示各圆是如何找到的。</translation>
     </message>
+    <message>
+        <source>The calibration has run. What it is at stands below on the left; meanwhile the window can be used. The &lt;b&gt;Refinement&lt;/b&gt; page shows how the circles were found.</source>
+        <translation>标定已运行完毕。运行到哪一步显示在左下方，其间窗口仍可使用。&lt;b&gt;精化&lt;/b&gt;页显示各圆是如何找到的。</translation>
+    </message>
+    <message>
+        <source>The effects that may be missing have been tried; scenes held out decided. The best one comes first, with a sentence on what was seen and how sure that is.</source>
+        <translation>可能遗漏的效应已逐一尝试，由留出的场景决定。最好的排在最前，并用一句话说明看到了什么、有多大把握。</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ErrorDialog</name>
@@ -7613,6 +7657,14 @@ Install a graphics driver (or Mesa&apos;s software renderer).</source>
     <message>
         <source>Lengths of the node residuals per scene (mm): median, quartiles, whiskers to 1.5 box lengths, circles beyond; red crosses: left out (triangles: higher than drawn)</source>
         <translation>各场景节点残差的长度 (mm)：中位数、四分位数、1.5 倍箱长的须线，之外为圆圈；红叉：未采用（三角：实际更高）</translation>
+    </message>
+    <message>
+        <source>Too few: no scene would be left below the line. Drag it up to keep one or more.</source>
+        <translation>场景太少：线下一个场景也不剩。请把线向上拖，至少保留一个场景。</translation>
+    </message>
+    <message>
+        <source>Without %1 there is no result: %2</source>
+        <translation>去掉 %1 后没有结果：%2</translation>
     </message>
 </context>
 <context>
@@ -8528,6 +8580,10 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
     <message>
         <source>Watching has ended.</source>
         <translation>监视已结束。</translation>
+    </message>
+    <message>
+        <source>Several at once are added as scenes to what is open, and nothing is open yet: drop one folder, project or recording first.</source>
+        <translation>一次放下多个时，会作为场景加入已打开的数据集，而现在尚未打开任何内容：请先放下一个文件夹、项目或录制文件。</translation>
     </message>
 </context>
 <context>
@@ -9473,6 +9529,22 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
         <source>Use again what was left out of this circle by hand</source>
         <translation>重新使用此圆中手动舍去的部分</translation>
     </message>
+    <message>
+        <source>Brush</source>
+        <translation>刷选</translation>
+    </message>
+    <message>
+        <source>Draw a rectangle over samples in the large figure to select their bins. With Shift they are added to those selected (L)</source>
+        <translation>在大图的样本上画一个矩形，以选择其角度区间。按住 Shift 则加入已选的区间 (L)</translation>
+    </message>
+    <message>
+        <source>node %1: left out by hand</source>
+        <translation>节点 %1：手动剔除</translation>
+    </message>
+    <message>
+        <source>; left out by hand: %1</source>
+        <translation>；手动剔除 %1 个</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ResidualMapPlot</name>
@@ -9646,6 +9718,18 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
         <source>Leave it out again</source>
         <translation>重新排除</translation>
     </message>
+    <message>
+        <source>left out by hand</source>
+        <translation>手动剔除</translation>
+    </message>
+    <message>
+        <source>Take back</source>
+        <translation>恢复</translation>
+    </message>
+    <message>
+        <source>Scene %1, part of the board at x %2 to %3 m, y %4 to %5 m:</source>
+        <translation>场景 %1，标定板上 x %2 至 %3 m、y %4 至 %5 m 的部分：</translation>
+    </message>
 </context>
 <context>
     <name>lvcalib::widgets::ResultActions</name>
@@ -9800,12 +9884,16 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
         <translation>未使用的圆</translation>
     </message>
     <message>
-        <source>The board from the front with the returns about its circles (of many, some), blue those of the overlap region. Dashed red: circles that are left out in one of the scenes shown; hatched: where something seems to cover the board; the reasons are in the table below.</source>
-        <translation>标定板正面及圆周围的回波（过多时取一部分），蓝色为重叠区的回波。红色虚线：在所示某个场景中未采用的圆；斜线：标定板似乎被遮挡之处；原因见下表。</translation>
-    </message>
-    <message>
         <source>covered</source>
         <translation>被遮挡</translation>
+    </message>
+    <message>
+        <source>The board from the front with the returns about its circles (of many, some), blue those of the overlap region. Dashed red: circles that are left out in one of the scenes shown; hatched: where something seems to cover the board; violet: what is left out by hand. The reasons are in the table below.</source>
+        <translation>标定板正面及圆周围的回波（过多时取一部分），蓝色为重叠区的回波。红色虚线：在所示某个场景中未采用的圆；斜线：标定板似乎被遮挡之处；紫色：手动剔除的内容。原因见下表。</translation>
+    </message>
+    <message>
+        <source>left out by hand</source>
+        <translation>手动剔除</translation>
     </message>
 </context>
 <context>
@@ -9849,10 +9937,6 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
     <message>
         <source>Tags</source>
         <translation>标签</translation>
-    </message>
-    <message>
-        <source>Tags found in the image.</source>
-        <translation>图像中找到的标签数。</translation>
     </message>
     <message>
         <source>Points</source>
@@ -9913,6 +9997,26 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
     <message>
         <source>not run</source>
         <translation>尚未运行</translation>
+    </message>
+    <message>
+        <source>%1/%2</source>
+        <translation>%1/%2</translation>
+    </message>
+    <message>
+        <source>missing</source>
+        <translation>缺失</translation>
+    </message>
+    <message>
+        <source>unreadable</source>
+        <translation>无法读取</translation>
+    </message>
+    <message>
+        <source>refused</source>
+        <translation>被拒绝</translation>
+    </message>
+    <message>
+        <source>Tags found in the image; 13/16: the program uses 13 of 16.</source>
+        <translation>图像中找到的标签；13/16：程序使用 16 个中的 13 个。</translation>
     </message>
 </context>
 <context>
@@ -10073,6 +10177,12 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
         <source>Part of the board, %n points left out: %1</source>
         <translation>
             <numerusform>标定板的一部分，%n 个点未使用：%1</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>Part of the board, %n points left out by hand</source>
+        <translation>
+            <numerusform>标定板的一部分，手动剔除了 %n 个点</numerusform>
         </translation>
     </message>
 </context>
@@ -10287,6 +10397,14 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
     <message>
         <source>%1: %2</source>
         <translation>%1：%2</translation>
+    </message>
+    <message>
+        <source>good so far; still looking for what is missing</source>
+        <translation>目前良好；仍在查找遗漏的效应</translation>
+    </message>
+    <message>
+        <source>good so far; nobody has looked for what is missing</source>
+        <translation>目前良好；尚未查找遗漏的效应</translation>
     </message>
 </context>
 <context>
