@@ -15,7 +15,7 @@ build_packages=(
   qt6-qpa-plugins libvtk9-dev libqcustomplot-dev libgl1-mesa-dev libegl-dev fonts-dejavu-core
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libpcl-dev python3
-  xvfb xauth xdotool imagemagick poppler-utils libgl1-mesa-dri fonts-wqy-microhei)
+  xvfb xauth xdotool imagemagick poppler-utils libgl1-mesa-dri lld fonts-wqy-microhei)
 ci_packages=(clang-format clang-tidy libclang-rt-dev desktop-file-utils appstream man-db)
 
 packages=("${build_packages[@]}")
