@@ -204,10 +204,14 @@ struct CloudPipeline::Vtk {
   // would be seen here and there only.
   void bringLinesForward() {
     const Eigen::Vector3d eye_m(renderer->GetActiveCamera()->GetPosition());
-    bring_forward(*of_width(CloudLineWidth::kHair), eye_m, 0.02);
-    bring_forward(*of_width(CloudLineWidth::kBroad), eye_m, 0.03);
-    bring_forward(*of_width(CloudLineWidth::kUsual), eye_m, 0.04);
-    bring_forward(*highlight_actor, eye_m, 0.05);
+    const double distance_m = renderer->GetActiveCamera()->GetDistance();
+    const auto forward = [&](vtkActor& actor, double by_m) {
+      bring_forward(actor, eye_m, std::min(by_m / distance_m, 0.3));
+    };
+    forward(*of_width(CloudLineWidth::kHair), 0.03);
+    forward(*of_width(CloudLineWidth::kBroad), 0.04);
+    forward(*of_width(CloudLineWidth::kUsual), 0.06);
+    forward(*highlight_actor, 0.07);
   }
 
   // VTK counts the screen's own pixels: on a fine screen lines would be hairs.
