@@ -516,12 +516,16 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   judge_scale(result, options, verdict);
   judge_dark_offset(result, options, verdict);
   judge_scene_scales(result, options, verdict);
-  judge_splits(result, verdict);
-  judge_leverage(result, verdict);
-  // A cause that is named explains what misses because of it; nobody is sent after that as well.
+  // A cause that is named explains what misses because of it; nobody is sent after that as well. A
+  // wrong camera or print makes scenes contradict each other by where their boards were.
+  const bool by_images = camera || !result.intrinsics.spacing.empty();
+  if (!by_images) {
+    judge_splits(result, verdict);
+    judge_leverage(result, verdict);
+    if (bump.empty()) judge_bump(result, verdict);
+  }
   // What trails along the scan may look like a small bump, and is told beside it.
-  bool named = camera || !bump.empty() || !result.intrinsics.spacing.empty();
-  if (bump.empty()) judge_bump(result, verdict);
+  bool named = by_images || !bump.empty();
   if (!named) named = judge_scans(result, options, verdict);
   if (!result.unverified.empty()) verdict.note(result.unverified);
   judge_corners(result, options, verdict);

@@ -312,7 +312,8 @@ const char* order_that_fits(const Camera& given, const Camera& fitted, double ap
     const char* name;
     std::array<int, 5> at;  // Where each of k1 k2 p1 p2 k3 stands.
   };
-  constexpr std::array<Order, 3> kOrders = {{{"p1 p2 k1 k2 k3", {2, 3, 0, 1, 4}},
+  constexpr std::array<Order, 4> kOrders = {{{"p1 p2 k1 k2 k3", {2, 3, 0, 1, 4}},
+                                             {"k2 k1 p1 p2 k3", {1, 0, 2, 3, 4}},
                                              {"k1 k2 k3 p1 p2", {0, 1, 3, 4, 2}},
                                              {"k1 p1 k2 p2 k3", {0, 2, 1, 3, 4}}}};
   for (const Order& order : kOrders) {

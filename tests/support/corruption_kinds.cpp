@@ -91,7 +91,8 @@ void add_repeats(Kinds& all) {
 }
 
 void add_strays(Kinds& all) {
-  const Words images_wrong{"exchanged", "belong", "agree", "contradict"};
+  const Words images_wrong{"seem to be exchanged", "contradicts the other",
+                           "not agree with the other scenes", "the scenes do not agree"};
   all.push_back(scenes("clouds of two scenes exchanged", images_wrong, [](CorruptedRig& c) {
     std::swap(c.rig.scenes[0].cloud, c.rig.scenes[1].cloud);
   }));
@@ -137,7 +138,10 @@ void add_strays(Kinds& all) {
 }
 
 void add_bumps(Kinds& all) {
-  const Words words{"mov", "contradict", "bump"};
+  const Words words{"did a sensor move",       "did the board or a sensor move",
+                    "did something move",      "moves steadily from scene to scene",
+                    "contradicts the other",   "not agree with the other scenes",
+                    "the halves of the scenes"};
   for (const double mm : {2.0, 5.0, 10.0, 20.0, 50.0}) {
     Vector6d xi = Vector6d::Zero();
     xi.head<3>() = 1e-3 * mm * Eigen::Vector3d(0.48, 0.6, 0.64);
