@@ -96,32 +96,58 @@ double added_rms_px(const std::vector<CornerView>& others, const IntrinsicsFit& 
   return std::sqrt(std::max(0.0, added) / (2.0 * static_cast<double>(view.corners->size())));
 }
 
-// Leaves out images of intrinsics/ that are of something else; one of them would spoil the camera
-// for all scenes. A free camera can meet a single stray halfway, so that all images miss alike:
-// where the scenes alone give a camera, each image is asked by itself what it adds to their
-// residuals. True if there was any.
-bool drop_stray_images(CalibrationResult& result, const IntrinsicsFit& fit) {
+// What it adds by chance at most: noise of its own, as its replicates tell it, less a pose, against
+// that of the others, once in ten thousand; and half as much again, as corners of one image are
+// harder to see than those of another beyond what replicates tell.
+double addable_rms_px(const IntrinsicsFit& alone, const CornerView& view) {
+  constexpr double kTail = 1e-4;
+  constexpr double kUneven = 1.5;
+  constexpr int kPose = 6;
+  const auto coordinates = static_cast<int>(2 * view.corners->size());
+  const double noise_px = std::max(alone.sigma_px, replicate_noise({view}, alone.camera));
+  const double gate = f_gate(std::max(1, coordinates - kPose), alone.freedom, kTail);
+  return kUneven * noise_px * std::sqrt(gate / coordinates);
+}
+
+// Why views of intrinsics/ are left out, for those of `views` behind the scenes'; empty ones stay.
+// A free camera can meet a single stray halfway, so that all images miss alike: where the scenes
+// alone give a camera, each is asked by itself what it adds to their residuals. If that is too much
+// of most of them, the lens is not of this model, or the scenes are at fault, and it says nothing.
+std::vector<Message> strays_among(const std::vector<CornerView>& views, std::size_t scenes,
+                                  const Camera& given, const IntrinsicsFit& fit) {
   constexpr std::size_t kFewestScenes = 3;
-  const std::vector<CornerView> views = views_of(result);
-  const std::size_t scenes = views.size() - extra_views(result.intrinsics).size();
-  const std::vector<CornerView> of_scenes(views.begin(),
-                                          views.begin() + static_cast<std::ptrdiff_t>(scenes));
-  const Camera& given = result.intrinsics.given;
-  std::optional<IntrinsicsFit> alone;
-  if (scenes >= kFewestScenes)
-    alone = fit_intrinsics(of_scenes, given, wide_intrinsics_sigma(given));
   std::vector<double> rms_px;
   for (std::size_t v = 0; v < views.size(); ++v)
     rms_px.push_back(corner_rms_px(*views[v].corners, fit.camera, fit.camera_from_board[v]));
   const double usual = median(rms_px);
+  std::vector<Message> out;
+  for (std::size_t v = scenes; v < views.size(); ++v) out.push_back(stray_reason(rms_px[v], usual));
+  if (scenes < kFewestScenes) return out;
+  const std::vector<CornerView> of_scenes(views.begin(),
+                                          views.begin() + static_cast<std::ptrdiff_t>(scenes));
+  const auto alone = fit_intrinsics(of_scenes, given, wide_intrinsics_sigma(given));
+  if (!alone) return out;
+  std::vector<Message> asked;
+  for (std::size_t v = scenes; v < views.size(); ++v) {
+    asked.push_back(stray_reason(added_rms_px(of_scenes, *alone, views[v], given), 0.0,
+                                 addable_rms_px(*alone, views[v])));
+  }
+  const auto found = static_cast<std::size_t>(std::count_if(
+      asked.begin(), asked.end(), [](const Message& reason) { return !reason.empty(); }));
+  return found <= std::max<std::size_t>(1, asked.size() / 2) ? asked : out;
+}
+
+// Leaves out images of intrinsics/ that are of something else; one of them would spoil the camera
+// for all scenes. True if there was any.
+bool drop_stray_images(CalibrationResult& result, const IntrinsicsFit& fit) {
+  const std::vector<CornerView> views = views_of(result);
+  const std::size_t scenes = views.size() - extra_views(result.intrinsics).size();
+  const std::vector<Message> reasons = strays_among(views, scenes, result.intrinsics.given, fit);
   bool any = false;
-  std::size_t next = scenes;
+  std::size_t next = 0;
   for (BoardImage& image : result.intrinsics.extra_images) {
     if (!image.used()) continue;
-    const std::size_t v = next++;
-    const Message reason =
-        alone ? stray_reason(added_rms_px(of_scenes, *alone, views[v], given), alone->sigma_px, 0.0)
-              : stray_reason(rms_px[v], usual);
+    const Message& reason = reasons[next++];
     if (reason.empty()) continue;
     any = true;
     image.reason = reason;

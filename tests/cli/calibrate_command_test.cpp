@@ -125,6 +125,27 @@ TEST_F(CalibrateFlags, WithoutIntensityPlanesAndCornersHaveToDo) {
   EXPECT_THAT(outcome.err, HasSubstr("intensity is left out, as you decided"));
 }
 
+// What three scenes could not test, the one line says with the verdict.
+TEST_F(CalibrateFlags, SaysWithTheVerdictThatTheCameraIsNotVerified) {
+  const Outcome outcome = calibrate("fixed", {"--quiet"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const json j = result("fixed");
+  ASSERT_EQ(j["quality"], "good");
+  EXPECT_THAT(outcome.out,
+              StartsWith(j["verified"] == true ? "good: 3 of 3" : "good, camera not verified: 3"));
+}
+
+// Neither escape sequences nor bells, in one byte or as UTF-8, and no second line.
+TEST_F(CalibrateFlags, ControlCharactersOfNamesStayFromTheTerminal) {
+  for (const std::string name : {"no\x1b[31msuch", "no\asuch", "no\xc2\x9bsuch", "no\nsuch"}) {
+    const Outcome outcome = run_lvcalib({"calibrate", at(name), "-o", at("nowhere")});
+    EXPECT_EQ(outcome.status, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("such"));
+    EXPECT_EQ(outcome.err.find_first_of("\x1b\a\x9b"), std::string::npos) << outcome.err;
+    EXPECT_EQ(lines_of(outcome.err).size(), 1U) << outcome.err;
+  }
+}
+
 TEST_F(CalibrateFlags, DiscoverTakesTheOneAndNotTheOther) {
   const Outcome help = run_lvcalib({"discover", "--help"});
   EXPECT_THAT(help.out, HasSubstr("--no-intensity"));

@@ -321,7 +321,7 @@ TEST_F(DiscoverCommand, TheSameSceneThreeTimesIsOneAndTooFewToSearch) {
   }
   const Outcome outcome = discover(copy);
   EXPECT_EQ(outcome.status, 1) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("scene B is not used: the same files as scene A"));
+  EXPECT_THAT(outcome.err, HasSubstr("scene B, C: the same files as scene A"));
   EXPECT_THAT(outcome.err, HasSubstr("not enough scenes"));
   EXPECT_FALSE(fs::exists(out() / "discovery.json"));
 }

@@ -17,7 +17,7 @@
 namespace lvcalib::save_kill_test {
 namespace {
 
-constexpr int kKills = 50;
+constexpr int kKills = 100;
 
 // Two contents that differ in length: a mixture of them could not be taken for either.
 Project project_of(const std::filesystem::path& dataset, bool long_one) {
