@@ -59,9 +59,10 @@ Vector6d by(double x_m) {
   return out;
 }
 
-std::vector<std::string> said_of(CalibrationResult result) {
+std::vector<std::string> said_of(CalibrationResult result,
+                                 void (*judge)(const CalibrationResult&, Verdict&) = judge_bump) {
   Verdict verdict(result);
-  judge_bump(result, verdict);
+  judge(result, verdict);
   std::vector<std::string> out;
   for (const Message& reason : result.quality_reasons) out.push_back(reason.text());
   return out;
@@ -102,11 +103,7 @@ std::vector<std::string> leverage_of(std::size_t count, std::size_t odd, double 
     mean += term.gradient / static_cast<double>(count);
   for (GlobalTerm& term : result.forward->terms) term.gradient -= mean;
   result.forward->dof = 1e4;
-  Verdict verdict(result);
-  judge_leverage(result, verdict);
-  std::vector<std::string> out;
-  for (const Message& reason : result.quality_reasons) out.push_back(reason.text());
-  return out;
+  return said_of(result, judge_leverage);
 }
 
 TEST(SceneAgreement, AResultThatRestsOnOneSceneNamesIt) {
