@@ -47,7 +47,6 @@ Result<std::string> run(const CheckArguments& options, Session& session) {
       inputs.push_back(pair.cloud.string());
     }
     if (Status s = check_output(options.output, inputs); !s) return s.error();
-    if (Status s = check_no_part_of_dataset(options.output); !s) return s.error();
   }
   const auto read =
       read_fresh_views(pairs, input->camera, input->camera_from_lidar, session.context);

@@ -94,7 +94,6 @@ void warn(const CorrectionSummary& summary, const CorrectArguments& options,
 Result<std::string> run(const CorrectArguments& options, Session& session) {
   if (Status s = check_output(options.output, {options.cloud, options.result}); !s)
     return s.error();
-  if (Status s = check_no_part_of_dataset(options.output); !s) return s.error();
   const std::filesystem::path name(options.output);
   if (name.has_extension() && name.extension() != ".pcd" && !is_stream(name)) {
     return Error::usage(Message("a corrected cloud is written as PCD"), options.output,

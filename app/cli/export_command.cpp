@@ -29,7 +29,6 @@ bool is_cloud(const std::string& name) {
 
 Result<std::string> run(const ExportArguments& options, const RunContext& context) {
   if (Status s = check_output(options.output, {options.result, options.imu}); !s) return s.error();
-  if (Status s = check_no_part_of_dataset(options.output); !s) return s.error();
   auto input = read_export_input(options.result);
   if (!input) return input.error();
   // Nor onto what belongs to the result, or what it was made from.

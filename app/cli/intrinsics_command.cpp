@@ -84,7 +84,7 @@ Status check_camera_output(const IntrinsicsArguments& options, const CameraImage
                            const fs::path& target) {
   std::vector<std::string> inputs = {target.string(), options.camera};
   for (const fs::path& image : images.images) inputs.push_back(image.string());
-  if (Status s = check_output(options.output, inputs); !s) return s;
+  if (Status s = check_output(options.output, inputs, DatasetFiles::kWritten); !s) return s;
   std::error_code code;
   if (fs::is_directory(options.output, code))
     return Error::usage(Message("the output is a folder"), options.output,

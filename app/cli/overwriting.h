@@ -10,25 +10,15 @@
 
 namespace lvcalib::cli {
 
-/// Refuses a name that a dataset reads: what its target, its camera or a rough extrinsic is.
-inline Status check_no_part_of_dataset(const std::string& output) {
-  namespace fs = std::filesystem;
-  std::error_code code;
-  const fs::path whole = fs::weakly_canonical(output, code);
-  if (code) return Done{};
-  const auto is = [&](const char* name) { return whole.filename() == name; };
-  if (!is("target.yaml") && !is("camera.yaml") && !is("rig.yaml")) return Done{};
-  const fs::path dataset = whole.parent_path();
-  if (!fs::is_directory(dataset / "scenes", code)) return Done{};
-  return Error::usage(
-      Message("the output would be read as a part of the dataset %1", dataset.string()), output,
-      Message("give another name with -o"));
-}
+/// Whether a file may take the name of what a dataset reads: its target, its camera, a rough
+/// extrinsic.
+enum class DatasetFiles { kRefused, kWritten };
 
-/// Refuses to write onto a file that is read (what was measured would be gone for good), or among
-/// the scenes of a dataset, where the next run would take it for one of theirs. Empty names are
-/// none.
-inline Status check_output(const std::string& output, const std::vector<std::string>& inputs) {
+/// Refuses to write onto a file that is read (what was measured would be gone for good), among the
+/// scenes of a dataset, where the next run would take it for one of theirs, or under a name that a
+/// dataset reads, its own or another. Empty names are none.
+inline Status check_output(const std::string& output, const std::vector<std::string>& inputs,
+                           DatasetFiles dataset_files = DatasetFiles::kRefused) {
   namespace fs = std::filesystem;
   std::error_code code;
   for (const std::string& input : inputs) {
@@ -45,6 +35,15 @@ inline Status check_output(const std::string& output, const std::vector<std::str
       continue;
     return Error::usage(Message("the output lies among a dataset's scenes"), output,
                         Message("give a place outside %1", folder.string()));
+  }
+  if (dataset_files == DatasetFiles::kWritten ||
+      !fs::is_directory(whole.parent_path() / "scenes", code))
+    return Done{};
+  for (const char* name : {"target.yaml", "camera.yaml", "rig.yaml"}) {
+    if (whole.filename() != name) continue;
+    return Error::usage(Message("the output would be read as a part of the dataset %1",
+                                whole.parent_path().string()),
+                        output, Message("give another name with -o"));
   }
   return Done{};
 }

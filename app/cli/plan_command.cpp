@@ -35,7 +35,6 @@ std::string summary_of(const ScenePlan& plan, const std::string& output) {
 Result<std::string> run(const PlanArguments& options, Session& session) {
   if (Status s = check_output(options.output, {options.target, options.camera, options.lidar}); !s)
     return s.error();
-  if (Status s = check_no_part_of_dataset(options.output); !s) return s.error();
   const auto target = read_target(options.target);
   if (!target) return target.error();
   const auto camera = read_camera(options.camera);

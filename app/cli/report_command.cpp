@@ -19,7 +19,6 @@ Result<std::string> run(ReportArguments options, Session& session) {
   const std::filesystem::path named(options.folder);
   if (named.filename() == "result.json") options.folder = (named.parent_path() / ".").string();
   const std::filesystem::path folder(options.folder);
-  if (Status s = check_no_part_of_dataset(options.output); !s) return s.error();
   if (Status s = check_output(options.output,
                               {(folder / "result.json").string(), (folder / "result.yaml").string(),
                                (folder / "discovery.json").string()});

@@ -10,6 +10,7 @@
 #include "base/progress.h"
 #include "camera/camera.h"
 #include "detection/board_view.h"
+#include "solve/intrinsics_fit.h"
 #include "target/target.h"
 
 namespace lvcalib {
@@ -55,5 +56,14 @@ double corner_rms_px(const std::vector<CornerObservation>& corners, const Camera
 /// else, moved, bent, another board or camera. Empty unless it misses by five times the usual, and
 /// by more than `floor_px`: the smear of a hand that is nearly still.
 Message stray_reason(double rms_px, double usual_px, double floor_px = 0.3);
+
+/// Why views of images for the camera alone are left out: those of `views` behind the first
+/// `scenes`, which are the scenes' own; empty ones stay. A free camera can meet a single stray
+/// halfway, so that all images miss alike under `fit`, that of all views: where the scenes alone
+/// give a camera, each view is asked by itself what it adds to their residuals (F-test, see the
+/// source). If that is too much of most of them, the lens is not of this model, or the scenes are
+/// at fault, and it says nothing.
+std::vector<Message> strays_among(const std::vector<CornerView>& views, std::size_t scenes,
+                                  const Camera& given, const IntrinsicsFit& fit);
 
 }  // namespace lvcalib

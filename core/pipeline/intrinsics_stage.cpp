@@ -74,69 +74,6 @@ std::optional<IntrinsicsFit> fit_freely(const std::vector<CornerView>& views, co
   return other && (!fit || other->sigma_px < fit->sigma_px) ? other : fit;
 }
 
-// Σ of squared residuals of all corners' coordinates under a fit, px².
-double squares_of(const std::vector<CornerView>& views, const IntrinsicsFit& fit) {
-  double sum = 0.0;
-  for (std::size_t v = 0; v < views.size(); ++v) {
-    const double rms = corner_rms_px(*views[v].corners, fit.camera, fit.camera_from_board[v]);
-    sum += rms * rms * static_cast<double>(2 * views[v].corners->size());
-  }
-  return sum;
-}
-
-// By how much a view adds to the residuals of others, as an RMS of its corners' coordinates, px,
-// whatever camera all would agree on.
-double added_rms_px(const std::vector<CornerView>& others, const IntrinsicsFit& alone,
-                    const CornerView& view, const Camera& given) {
-  std::vector<CornerView> with = others;
-  with.push_back(view);
-  const auto together = fit_intrinsics(with, given, wide_intrinsics_sigma(given));
-  if (!together) return HUGE_VAL;
-  const double added = squares_of(with, *together) - squares_of(others, alone);
-  return std::sqrt(std::max(0.0, added) / (2.0 * static_cast<double>(view.corners->size())));
-}
-
-// What it adds by chance at most: noise of its own, as its replicates tell it, less a pose, against
-// that of the others, once in ten thousand; and half as much again, as corners of one image are
-// harder to see than those of another beyond what replicates tell.
-double addable_rms_px(const IntrinsicsFit& alone, const CornerView& view) {
-  constexpr double kTail = 1e-4;
-  constexpr double kUneven = 1.5;
-  constexpr int kPose = 6;
-  const auto coordinates = static_cast<int>(2 * view.corners->size());
-  const double noise_px = std::max(alone.sigma_px, replicate_noise({view}, alone.camera));
-  const double gate = f_gate(std::max(1, coordinates - kPose), alone.freedom, kTail);
-  return kUneven * noise_px * std::sqrt(gate / coordinates);
-}
-
-// Why views of intrinsics/ are left out, for those of `views` behind the scenes'; empty ones stay.
-// A free camera can meet a single stray halfway, so that all images miss alike: where the scenes
-// alone give a camera, each is asked by itself what it adds to their residuals. If that is too much
-// of most of them, the lens is not of this model, or the scenes are at fault, and it says nothing.
-std::vector<Message> strays_among(const std::vector<CornerView>& views, std::size_t scenes,
-                                  const Camera& given, const IntrinsicsFit& fit) {
-  constexpr std::size_t kFewestScenes = 3;
-  std::vector<double> rms_px;
-  for (std::size_t v = 0; v < views.size(); ++v)
-    rms_px.push_back(corner_rms_px(*views[v].corners, fit.camera, fit.camera_from_board[v]));
-  const double usual = median(rms_px);
-  std::vector<Message> out;
-  for (std::size_t v = scenes; v < views.size(); ++v) out.push_back(stray_reason(rms_px[v], usual));
-  if (scenes < kFewestScenes) return out;
-  const std::vector<CornerView> of_scenes(views.begin(),
-                                          views.begin() + static_cast<std::ptrdiff_t>(scenes));
-  const auto alone = fit_intrinsics(of_scenes, given, wide_intrinsics_sigma(given));
-  if (!alone) return out;
-  std::vector<Message> asked;
-  for (std::size_t v = scenes; v < views.size(); ++v) {
-    asked.push_back(stray_reason(added_rms_px(of_scenes, *alone, views[v], given), 0.0,
-                                 addable_rms_px(*alone, views[v])));
-  }
-  const auto found = static_cast<std::size_t>(std::count_if(
-      asked.begin(), asked.end(), [](const Message& reason) { return !reason.empty(); }));
-  return found <= std::max<std::size_t>(1, asked.size() / 2) ? asked : out;
-}
-
 // Leaves out images of intrinsics/ that are of something else; one of them would spoil the camera
 // for all scenes. True if there was any.
 bool drop_stray_images(CalibrationResult& result, const IntrinsicsFit& fit) {

@@ -310,6 +310,23 @@ Message misfit(const ExtrinsicSolution& x) {
       worst->name, formatted("%.1f", worst->rms_mm), formatted("%.1f", usual));
 }
 
+// Residuals beyond their noise, of whatever cause.
+void judge_residuals(const CalibrationResult& result, const QualityOptions& options,
+                     Verdict& verdict) {
+  const ExtrinsicSolution& x = result.extrinsic;
+  if (result.model_fit) {
+    // Planes and circles, one number for many returns, tell less.
+    if (!(result.modelled_range_misfit > options.max_noise_scale)) return;
+    verdict.doubtful(
+        Message("ranges miss the model by %1 times their noise: another effect is missing in the "
+                "model",
+                formatted("%.1f", result.modelled_range_misfit)));
+  } else if (x.node_scale > options.max_noise_scale ||
+             (x.plane_scale > options.max_noise_scale && planes_tell(result))) {
+    verdict.doubtful(misfit(x));
+  }
+}
+
 // What a search leaves: an effect that it would add, and structure that moves the extrinsic by more
 // than the tolerance.
 void judge_missing(const CalibrationResult& result, Verdict& verdict) {
@@ -388,9 +405,8 @@ std::vector<UnusedScenes> unused_scenes(const CalibrationResult& result) {
   return by_reason;
 }
 
-// As many reasons as a reader takes in at once.
 Message in_short(const std::vector<UnusedScenes>& unused) {
-  constexpr std::size_t kMost = 6;
+  constexpr std::size_t kMost = 6;  // As many reasons as a reader takes in at once.
   std::vector<Message> out;
   for (std::size_t k = 0; k < unused.size() && k < kMost; ++k)
     out.push_back(Message("scene %1: %2", joined(unused[k].names, ", "), unused[k].reason));
@@ -530,20 +546,7 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   if (!result.unverified.empty()) verdict.note(result.unverified);
   judge_corners(result, options, verdict);
   judge_missing(result, verdict);
-  if (named) {
-    // Residuals beyond their noise are no news.
-  } else if (result.model_fit) {
-    // Planes and circles, one number for many returns, tell less.
-    if (result.modelled_range_misfit > options.max_noise_scale) {
-      verdict.doubtful(
-          Message("ranges miss the model by %1 times their noise: another effect is missing in the "
-                  "model",
-                  formatted("%.1f", result.modelled_range_misfit)));
-    }
-  } else if (x.node_scale > options.max_noise_scale ||
-             (x.plane_scale > options.max_noise_scale && planes_tell(result))) {
-    verdict.doubtful(misfit(x));
-  }
+  if (!named) judge_residuals(result, options, verdict);
   if (result.target.has_circles() && x.rms_mm > 1e3 * result.target.circle_radius_m) {
     verdict.doubtful(
         Message("the circles' centres miss the model by more than their radius: the clouds do not "
