@@ -5201,6 +5201,30 @@ were saved. Take them up again?</source>
         <source>scenes %1 are not used: %2</source>
         <translation>场景 %1 未采用：%2</translation>
     </message>
+    <message>
+        <source>%1: the outer squares reach %2 mm beyond the board&apos;s outline; measure boardWidth, boardHeight and boardOffset</source>
+        <translation>%1：外圈方格超出标定板外形 %2 mm；请测量 boardWidth、boardHeight 和 boardOffset</translation>
+    </message>
+    <message>
+        <source>%1: the outer squares reach %2 mm beyond the board&apos;s outline; with targetCols: %3 and targetRows: %4 they would not</source>
+        <translation>%1：外圈方格超出标定板外形 %2 mm；若 targetCols: %3、targetRows: %4 则不会</translation>
+    </message>
+    <message>
+        <source>%1: without boardWidth and boardHeight the board is taken to end with its outer squares, and clouds are searched for one of that size; measure the board</source>
+        <translation>%1：没有 boardWidth 和 boardHeight，便认为标定板到外圈方格为止，并在点云中查找这一大小的板；请测量标定板</translation>
+    </message>
+    <message>
+        <source>if all of it is visible, targetCols: %1 and targetRows: %2 would fit</source>
+        <translation>如果它全部可见，则 targetCols: %1、targetRows: %2 相符</translation>
+    </message>
+    <message>
+        <source>no checkerboard with %1 × %2 inner corners in the image, but one with %3 × %4</source>
+        <translation>图像中没有内角点为 %1 × %2 的棋盘格，但有 %3 × %4 的</translation>
+    </message>
+    <message>
+        <source>tagId: %1 would fit; or use the right board</source>
+        <translation>tagId: %1 相符；或使用正确的标定板</translation>
+    </message>
 </context>
 <context>
     <name>CoreWords</name>

@@ -217,8 +217,7 @@ std::optional<Error> other_count(const GrayImage& image, const Target& target, c
 // counted from another number the tags seen fit as well, whole rows off. Then other tags are there.
 bool may_be_miscounted(const std::vector<BoardTag>& tags, const Target& target,
                        const Camera& camera, const Rigid3& camera_from_board) {
-  if (target.type != TargetType::kAprilGrid && target.type != TargetType::kAprilGridCircles)
-    return false;
+  if (target.tag_count() < 2) return false;
   std::size_t visible = 0;
   for (const TargetTag& tag : target.tags()) {
     const auto pixel = camera.project(camera_from_board *
@@ -245,7 +244,7 @@ BoardView make_view(std::vector<CornerObservation> corners, const BoardPose& pos
   if (pose.rms_px > 1.0) {
     view.warnings.push_back(Message(
         "corners miss the board by %1 px RMS: check the intrinsics and the target's measures",
-        formatted("%f", pose.rms_px)));
+        formatted("%.2f", pose.rms_px)));
   }
   return view;
 }
@@ -276,6 +275,7 @@ Result<BoardView> view_tags(const GrayImage& image, const Target& target, const 
     if (tags_in_mirror(image, target, options, context) > seen.size()) return explain_mirrored();
     if (const auto error = other_tag_family(image, target, seen.size(), options, context))
       return *error;
+    if (const auto error = other_count(image, target, camera, options, context)) return *error;
     return misplaced_tags(tags.size(), seen, target, camera, options);
   };
   auto pose = estimate_board_pose(

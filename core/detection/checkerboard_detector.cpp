@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include <Eigen/LU>
 #include <opencv2/calib3d.hpp>
@@ -59,6 +61,46 @@ bool find_grid(const cv::Mat& image, double reduction, Method method, Grid& grid
     grid.points.emplace_back((p.x + 0.5) * sx - 0.5, (p.y + 0.5) * sy - 0.5);
   }
   return true;
+}
+
+// About 1000 pixels along the longer side show the squares of any usable board.
+double usual_reduction(const cv::Mat& image) {
+  return std::max(1.0, std::max(image.cols, image.rows) / 1000.0);
+}
+
+// The largest checkerboard of any size; its longer side along the target's. Nothing for what has
+// not half of the target's corners along either side: tags and tiles look like small checkerboards.
+std::optional<cv::Size> other_size(const cv::Mat& image, const Target& target) {
+  constexpr int kFewest = 3;  // OpenCV finds nothing smaller.
+  cv::Mat small;
+  const double reduction = usual_reduction(image);
+  cv::resize(image, small, {}, 1.0 / reduction, 1.0 / reduction, cv::INTER_AREA);
+  std::vector<cv::Point2f> corners;
+  cv::Mat found;  // An element for each corner.
+  if (!cv::findChessboardCornersSB(small, {kFewest, kFewest}, corners,
+                                   cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_LARGER, found))
+    return std::nullopt;
+  cv::Size size = found.size();
+  if ((size.width < size.height) != (target.corner_columns < target.corner_rows))
+    std::swap(size.width, size.height);
+  if (2 * size.width < target.corner_columns || 2 * size.height < target.corner_rows)
+    return std::nullopt;
+  return size;
+}
+
+Error no_checkerboard(const cv::Mat& image, const Target& target) {
+  const auto other = other_size(image, target);
+  if (!other || *other == cv::Size(target.corner_columns, target.corner_rows)) {
+    return Error::input(Message("no checkerboard with %1 × %2 inner corners in the image",
+                                target.corner_columns, target.corner_rows),
+                        {}, Message("all of it must be visible; check targetCols and targetRows"));
+  }
+  return Error::input(
+      Message("no checkerboard with %1 × %2 inner corners in the image, but one with %3 × %4",
+              target.corner_columns, target.corner_rows, other->width, other->height),
+      {},
+      Message("if all of it is visible, targetCols: %1 and targetRows: %2 would fit", other->width,
+              other->height));
 }
 
 // Shortest distance between neighbouring corners.
@@ -169,8 +211,7 @@ Grid oriented(const Grid& found, const cv::Mat& image, const Target& target) {
 }
 
 bool search(const cv::Mat& image, Grid& grid, const RunContext& context) {
-  // About 1000 pixels along the longer side show the squares of any usable board.
-  const double first = std::max(1.0, std::max(image.cols, image.rows) / 1000.0);
+  const double first = usual_reduction(image);
   struct Attempt {
     double reduction;
     Method method;
@@ -217,10 +258,7 @@ Result<CheckerboardCorners> find_checkerboard(const GrayImage& image, const Targ
     cv::Mat mat = to_mat(image);
     if (!search(mat, grid, context)) {
       if (context.stopped()) return Error::cancelled();
-      return Error::input(Message("no checkerboard with %1 × %2 inner corners in the image",
-                                  target.corner_columns, target.corner_rows),
-                          {},
-                          Message("all of it must be visible; check targetCols and targetRows"));
+      return no_checkerboard(mat, target);
     }
     refine(mat, grid);
     grid = oriented(grid, mat, target);

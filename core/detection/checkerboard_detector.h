@@ -16,7 +16,8 @@ struct CheckerboardCorners {
 /// Inner corners of the target's checkerboard, to about 0.05 px, in its frame: x along the columns,
 /// y along the rows, right-handed as seen from the front. Among the frames that fit the squares'
 /// colours, the one whose y axis points most upwards in the image (then x to the right).
-/// Errors (kInput): no checkerboard of this size, or two of them; kCancelled.
+/// Errors (kInput): no checkerboard of this size (and which is there instead), or two of them;
+/// kCancelled.
 Result<CheckerboardCorners> find_checkerboard(const GrayImage& image, const Target& target,
                                               const RunContext& context);
 

@@ -91,25 +91,67 @@ Message described(const Arrangement& how) {
 // Tags that lie where a target has them.
 Fit fitting_as_is(const std::vector<BoardTag>& tags, const Target& target, const Camera& camera,
                   const DetectionOptions& options) {
-  return fitting(rearranged(tags, target, {}), camera, options);
+  return fitting(to_observations(tags, target), camera, options);
 }
 
-// The grid with another number of columns or another first id that most tags fit. Which rows are
+bool is_grid(const Target& target) {
+  return target.type == TargetType::kAprilGrid || target.type == TargetType::kAprilGridCircles;
+}
+
+// A board's columns and rows as target.yaml counts them: of tags, or of a ChArUco board's squares.
+struct Count {
+  int columns = 0;
+  int rows = 0;
+};
+
+Count count_of(const Target& target) {
+  return is_grid(target) ? Count{target.tag_columns, target.tag_rows}
+                         : Count{target.corner_columns + 1, target.corner_rows + 1};
+}
+
+void set_count(const Count& count, Target& target) {
+  if (is_grid(target)) {
+    target.tag_columns = count.columns;
+    target.tag_rows = count.rows;
+  } else {
+    target.corner_columns = count.columns - 1;
+    target.corner_rows = count.rows - 1;
+  }
+}
+
+// The least number of rows that hold the highest id. A ChArUco board keeps whether they are even:
+// its colours may depend on it.
+int least_rows(int columns, int highest_id, const Target& target) {
+  const int ids = highest_id - target.first_tag_id + 1;
+  if (is_grid(target)) return (ids - 1) / columns + 1;
+  Target other = target;
+  int rows = count_of(target).rows % 2 == 0 ? 2 : 3;
+  for (set_count({columns, rows}, other); other.tag_count() < ids;
+       set_count({columns, rows}, other))
+    rows += 2;
+  return rows;
+}
+
+// The board with another number of columns or another first id that most tags fit. Which rows are
 // there the tags say themselves.
 std::pair<Fit, Message> best_counting(const std::vector<BoardTag>& tags, const Target& target,
                                       const Camera& camera, const DetectionOptions& options) {
-  constexpr int kMostColumns = 16;  // No board that fits a sheet has more tags side by side.
+  // No board that fits a sheet has more tags side by side, and no ChArUco board fewer squares.
+  constexpr int kMostColumns = 16;
+  const int fewest = is_grid(target) ? 1 : 3;
+  const Count given = count_of(target);
   const auto [low, high] = std::minmax_element(
       tags.begin(), tags.end(), [](const BoardTag& a, const BoardTag& b) { return a.id < b.id; });
   std::pair<Fit, Message> best;
-  for (int columns = 1; columns <= kMostColumns; ++columns) {
-    // Ids that differ by whole rows lie alike but for a shift of the whole board.
+  for (int columns = fewest; columns <= kMostColumns; ++columns) {
+    // Ids that differ by whole rows (of a ChArUco board by two, which hold as many markers as it
+    // has columns) lie alike but for a shift of the whole board.
     for (int k = 0; k < columns; ++k) {
       Target other = target;
-      other.tag_columns = columns;
       other.first_tag_id = low->id - k;
       if (other.first_tag_id < 0) break;
-      other.tag_rows = (high->id - other.first_tag_id) / columns + 1;
+      const int rows = least_rows(columns, high->id, other);
+      set_count({columns, rows}, other);
       const Fit fit = fitting_as_is(tags, other, camera, options);
       if (!fit.better_than(best.first)) continue;
       std::string fields;
@@ -117,10 +159,11 @@ std::pair<Fit, Message> best_counting(const std::vector<BoardTag>& tags, const T
         if (value == given) return;
         fields += (fields.empty() ? "" : ", ") + std::string(field) + ": " + std::to_string(value);
       };
-      say("firstTagId", other.first_tag_id, target.first_tag_id);
-      say("tagCols", columns, target.tag_columns);
-      if (other.tag_rows > target.tag_rows || columns != target.tag_columns)
-        say("tagRows", other.tag_rows, target.tag_rows);
+      const bool grid = is_grid(target);
+      say(grid ? "firstTagId" : "firstMarkerId", other.first_tag_id, target.first_tag_id);
+      say(grid ? "tagCols" : "targetCols", columns, given.columns);
+      if (rows > given.rows || columns != given.columns)
+        say(grid ? "tagRows" : "targetRows", rows, given.rows);
       best = {fit, Message::verbatim(fields)};
     }
   }
@@ -146,8 +189,7 @@ std::pair<Fit, Message> best_spacing(const std::vector<BoardTag>& tags, const Ta
 
 std::optional<Message> other_grid(const std::vector<BoardTag>& tags, const Target& target,
                                   const Camera& camera, const DetectionOptions& options) {
-  if ((target.type != TargetType::kAprilGrid && target.type != TargetType::kAprilGridCircles) ||
-      tags.size() < 4)
+  if ((!is_grid(target) && target.type != TargetType::kCharuco) || tags.size() < 4)
     return std::nullopt;
   const std::size_t given = fitting_as_is(tags, target, camera, options).count;
   constexpr std::size_t kMore = 3;  // One or two tags fit another grid by chance of their place.
@@ -157,6 +199,7 @@ std::optional<Message> other_grid(const std::vector<BoardTag>& tags, const Targe
   };
   if (const auto found = best_counting(tags, target, camera, options); better(found))
     return found.second;
+  if (!is_grid(target)) return std::nullopt;
   if (const auto found = best_spacing(tags, target, camera, options); better(found))
     return found.second;
   return std::nullopt;
@@ -164,8 +207,7 @@ std::optional<Message> other_grid(const std::vector<BoardTag>& tags, const Targe
 
 std::optional<Message> other_arrangement(const std::vector<BoardTag>& tags, const Target& target,
                                          const Camera& camera, const DetectionOptions& options) {
-  if (target.type != TargetType::kAprilGrid && target.type != TargetType::kAprilGridCircles)
-    return std::nullopt;
+  if (!is_grid(target)) return std::nullopt;
   std::size_t best = 2;
   std::optional<Message> out;
   for (int turn = 0; turn < 4; ++turn) {

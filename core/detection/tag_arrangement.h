@@ -19,8 +19,8 @@ std::optional<Message> other_arrangement(const std::vector<BoardTag>& tags, cons
 
 /// Fields of target.yaml with which at least three quarters of the tags, and three more than with
 /// the present ones, lie where the target has them: "firstTagId: 0", "tagCols: 4",
-/// "tagSpacing: 0.833". `tags` may hold ids that the target does not have. Nothing for other boards
-/// than grids, or if nothing fits so well.
+/// "tagSpacing: 0.833"; of a ChArUco board "firstMarkerId: 0", "targetCols: 8". `tags` may hold ids
+/// that the target does not have. Nothing for other boards, or if nothing fits so well.
 std::optional<Message> other_grid(const std::vector<BoardTag>& tags, const Target& target,
                                   const Camera& camera, const DetectionOptions& options);
 

@@ -53,6 +53,7 @@ Message border_name(int bits) {
 }
 
 Message expected_ids(const Target& target) {
+  if (target.tag_count() == 1) return Message::verbatim(std::to_string(target.first_tag_id));
   return Message("%1 to %2", target.first_tag_id, target.first_tag_id + target.tag_count() - 1);
 }
 
@@ -61,7 +62,9 @@ Message ids_against_target(const std::set<int>& ids, const Target& target) {
                  expected_ids(target));
 }
 
-Message checked_fields(const Target& target) {
+Message checked_fields(const std::set<int>& ids, const Target& target) {
+  if (target.type == TargetType::kAprilTag && ids.size() == 1)
+    return Message("tagId: %1 would fit; or use the right board", *ids.begin());
   switch (target.type) {
     case TargetType::kCharuco:
       return Message("check firstMarkerId, targetCols and targetRows, or use the right board");
@@ -182,7 +185,7 @@ Error explain_missing_tags(const GrayImage& image, const Target& target, int fou
   const bool foreign =
       std::any_of(same.begin(), same.end(), [&](int id) { return !target.tag(id).has_value(); });
   if (foreign) {
-    return Error::input(ids_against_target(same, target), {}, checked_fields(target));
+    return Error::input(ids_against_target(same, target), {}, checked_fields(same, target));
   }
   if (found > 0) {
     if (const auto other =

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -13,6 +14,8 @@ namespace {
 
 constexpr double kLargestLength_m = 100.0;
 constexpr int kLargestCount = 1000;
+// A rule tells a board's sides to a millimetre.
+constexpr double kSameOutline_m = 1e-3;
 
 // Reads keys one after another and keeps the first error.
 class Reader {
@@ -170,6 +173,42 @@ std::optional<Error> read_measured_length(Reader& reader, const YamlFile& file, 
   return std::nullopt;
 }
 
+// By how much the outer squares of a checkerboard reach beyond its outline, along the worse side.
+double beyond_outline_m(const Target& t) {
+  const Eigen::Vector2d squares((t.corner_columns + 1) * t.column_spacing_m,
+                                (t.corner_rows + 1) * t.row_spacing_m);
+  const Eigen::Vector2d board(t.board_width_m, t.board_height_m);
+  return (0.5 * (squares - board) + t.board_offset_m.cwiseAbs()).maxCoeff();
+}
+
+// A checkerboard is looked for in clouds by its outline, which Kalibr's files do not have.
+void warn_of_outline(const YamlFile& file, const Target& t, std::vector<Message>& warnings) {
+  if (t.type != TargetType::kCheckerboard) return;
+  if (!file.has("boardWidth") || !file.has("boardHeight")) {
+    warnings.push_back(
+        Message("%1: without boardWidth and boardHeight the board is taken to end with its outer "
+                "squares, and clouds are searched for one of that size; measure the board",
+                file.name()));
+    return;
+  }
+  // Columns and rows that are exchanged make the pattern a square too long or more; outlines are
+  // measured far better, and who cuts squares off seldom takes so much of them.
+  constexpr double kSquares = 0.25;
+  const double beyond_m = beyond_outline_m(t);
+  if (beyond_m < kSquares * std::min(t.column_spacing_m, t.row_spacing_m)) return;
+  Target exchanged = t;
+  std::swap(exchanged.corner_columns, exchanged.corner_rows);
+  const std::string beyond_mm = std::to_string(std::lround(1e3 * beyond_m));
+  warnings.push_back(
+      beyond_outline_m(exchanged) < kSameOutline_m
+          ? Message("%1: the outer squares reach %2 mm beyond the board's outline; with "
+                    "targetCols: %3 and targetRows: %4 they would not",
+                    file.name(), beyond_mm, exchanged.corner_columns, exchanged.corner_rows)
+          : Message("%1: the outer squares reach %2 mm beyond the board's outline; measure "
+                    "boardWidth, boardHeight and boardOffset",
+                    file.name(), beyond_mm));
+}
+
 Result<TargetFile> target_of(const Result<YamlFile>& file) {
   if (!file) return file.error();
   auto type = file->string("target_type");
@@ -219,6 +258,7 @@ Result<TargetFile> target_of(const Result<YamlFile>& file) {
     error.where = file->name();
     return error;
   }
+  warn_of_outline(*file, target, warnings);
   return TargetFile{target, std::move(warnings)};
 }
 

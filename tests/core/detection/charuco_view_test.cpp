@@ -104,6 +104,17 @@ TEST(CharucoView, SaysWhatTheImageShowsInstead) {
   other = target;
   other.first_tag_id = 26;
   EXPECT_NE(charuco_complaint(image, other).find("the target has 26 to 49"), std::string::npos);
+  // Counts that the markers contradict; with ids from two rows later all of those fit, off by two.
+  other = target;
+  --other.corner_columns;
+  EXPECT_NE(charuco_complaint(image, other).find("targetCols: 6"), std::string::npos)
+      << charuco_complaint(image, other);
+  for (const int later : {1, 6}) {
+    other = target;
+    other.first_tag_id += later;
+    const std::string text = charuco_complaint(image, other);
+    EXPECT_NE(text.find("fit with firstMarkerId: 3"), std::string::npos) << text;
+  }
   GrayImage mirror = image;
   for (int y = 0; y < mirror.height_px; ++y) {
     const auto row = mirror.pixels.begin() + static_cast<std::ptrdiff_t>(y) * mirror.width_px;
@@ -144,7 +155,8 @@ TEST(SingleTagView, AnotherTagOrTwoOfThemAreRefused) {
   Target other = target;
   other.first_tag_id = 9;
   const std::string text = charuco_complaint(picture(target, pose), other);
-  EXPECT_NE(text.find("check tagId"), std::string::npos) << text;
+  EXPECT_NE(text.find("the target has 9"), std::string::npos) << text;
+  EXPECT_NE(text.find("tagId: 7 would fit"), std::string::npos) << text;
 }
 
 // Intrinsics of images of half the size: far from their principal point a lens bends much.

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -80,6 +82,26 @@ TEST(Checkerboard, MissingBoardIsAnError) {
 }
 
 // 5 × 7 squares' corners look the same after half a turn: only the image knows which are black.
+// Squares counted instead of inner corners, a row forgotten, and both exchanged: a board that is
+// found either way round is found then, too.
+TEST(Checkerboard, AnotherCountIsNamed) {
+  const Target target = board(7, 5);
+  const Camera camera = testing::pinhole(320, 300, 300);
+  const GrayImage image =
+      testing::render_board(target, camera, testing::facing_pose(target, 0.85, 0.2, 0.2, -0.2), {});
+  for (const auto& [columns, rows] : {std::pair(8, 6), std::pair(6, 5), std::pair(7, 4)}) {
+    const auto corners = find_checkerboard(image, board(columns, rows), {});
+    ASSERT_FALSE(corners.ok()) << columns << " × " << rows;
+    const std::string text = corners.error().text();
+    EXPECT_NE(text.find("targetCols: 7 and targetRows: 5 would fit"), std::string::npos) << text;
+  }
+  EXPECT_TRUE(find_checkerboard(image, board(5, 7), {}).ok());
+  // A board that cannot be this one is not offered.
+  const auto corners = find_checkerboard(image, board(16, 11), {});
+  ASSERT_FALSE(corners.ok());
+  EXPECT_EQ(corners.error().text().find("would fit"), std::string::npos);
+}
+
 TEST(Checkerboard, SaysWhenTheColorsAreTheOtherWayRound) {
   Target target = board(5, 7);
   const Camera camera = testing::pinhole(320, 300, 350);

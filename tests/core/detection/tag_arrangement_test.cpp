@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "detection/tag_arrangement.h"
 
+#include <string>
+
 #include <gtest/gtest.h>
 
+#include "support/ordinary_boards.h"
 #include "support/rendered_board.h"
 
 namespace lvcalib {
@@ -49,6 +52,27 @@ TEST_F(OtherTagGrid, AnotherCountIsNamed) {
   said = board_;
   said.tag_rows = 3;
   EXPECT_EQ(other_grid(tags, said, camera_, {})->text(), "tagRows: 4");
+}
+
+TEST_F(OtherTagGrid, AnotherCountOfACharucoBoardIsNamed) {
+  for (const Target& board : {test::charuco_target(), test::legacy_charuco_target()}) {
+    const std::string columns = std::to_string(board.corner_columns + 1);
+    const auto tags = seen(board);
+    EXPECT_EQ(other_grid(tags, board, camera_, {}), std::nullopt);
+    Target said = board;
+    said.first_tag_id += 5;
+    EXPECT_EQ(other_grid(tags, said, camera_, {})->text(),
+              "firstMarkerId: " + std::to_string(board.first_tag_id));
+    said = board;
+    ++said.corner_columns;
+    EXPECT_EQ(other_grid(tags, said, camera_, {})->text(), "targetCols: " + columns);
+    said.corner_columns -= 2;
+    EXPECT_EQ(other_grid(tags, said, camera_, {})->text(), "targetCols: " + columns);
+    said = board;
+    said.corner_rows -= 2;
+    EXPECT_EQ(other_grid(tags, said, camera_, {})->text(),
+              "targetRows: " + std::to_string(board.corner_rows + 1));
+  }
 }
 
 TEST_F(OtherTagGrid, AnotherSpacingIsNamed) {

@@ -138,6 +138,27 @@ TEST_F(TargetYaml, ReadsCheckerboards) {
   EXPECT_NEAR(bare->target.board_height_m, 0.8, 1e-12);
 }
 
+// Kalibr's files have no outline, by which clouds are searched; columns and rows that are exchanged
+// do not fit theirs.
+TEST_F(TargetYaml, ACheckerboardThatItsOutlineDoesNotFitIsWarnedOf) {
+  const std::string whole = kChecker;
+  EXPECT_TRUE(read(whole)->warnings.empty());
+  const auto bare = read(whole.substr(0, whole.find("boardWidth")));
+  ASSERT_TRUE(bare.ok());
+  ASSERT_EQ(bare->warnings.size(), 1U);
+  EXPECT_THAT(bare->warnings[0], HasSubstr("without boardWidth and boardHeight"));
+  const auto exchanged = read(replaced(replaced(kChecker, "targetCols: 5", "targetCols: 7"),
+                                       "targetRows: 7", "targetRows: 5"));
+  ASSERT_TRUE(exchanged.ok());
+  ASSERT_EQ(exchanged->warnings.size(), 1U);
+  EXPECT_THAT(exchanged->warnings[0], HasSubstr("77 mm beyond"));
+  EXPECT_THAT(exchanged->warnings[0], HasSubstr("targetCols: 5 and targetRows: 7"));
+  const auto small = read(replaced(kChecker, "boardWidth: 0.61", "boardWidth: 0.51"));
+  ASSERT_TRUE(small.ok());
+  ASSERT_EQ(small->warnings.size(), 1U);
+  EXPECT_THAT(small->warnings[0], HasSubstr("32 mm beyond the board's outline; measure"));
+}
+
 TEST_F(TargetYaml, WritesWhatItReads) {
   for (const char* text : {kGrid, kChecker, kCharuco, kSingleTag}) {
     const auto first = read(text);
