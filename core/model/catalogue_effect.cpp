@@ -31,6 +31,16 @@ Eigen::Vector2d lidar_angle_of(const BoundaryRow& row) {
   return length > 0.0 ? Eigen::Vector2d(angle / length) : Eigen::Vector2d::Zero().eval();
 }
 
+std::vector<EffectParameter> alike(const EffectParameter& first,
+                                   std::initializer_list<const char*> others) {
+  std::vector<EffectParameter> out{first};
+  for (const char* name : others) {
+    out.push_back(first);
+    out.back().name = name;
+  }
+  return out;
+}
+
 std::vector<EffectParameter> one_per_line(const MeasurementTable& table,
                                           const EffectParameter& parameter) {
   std::vector<EffectParameter> out;

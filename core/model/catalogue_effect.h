@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
@@ -9,7 +10,9 @@
 
 namespace lvcalib {
 
-/// Base of the effects in effects/: a description and, mostly, fixed parameters.
+/// Base of the effects in effects/: a description and, mostly, fixed parameters. A prior_sigma lies
+/// well beyond the sizes that `source` reports: it keeps finite what no data tell, and hardly draws
+/// what they do.
 class CatalogueEffect : public Effect {
  public:
   CatalogueEffect(EffectInfo info, std::vector<EffectParameter> parameters)
@@ -23,6 +26,10 @@ class CatalogueEffect : public Effect {
   EffectInfo info_;
   std::vector<EffectParameter> parameters_;
 };
+
+/// A parameter, and others that differ from it in their names alone.
+std::vector<EffectParameter> alike(const EffectParameter& first,
+                                   std::initializer_list<const char*> others);
 
 /// Displacements of a point at its range when azimuth·cos(elevation) or elevation grow by one rad.
 struct AngleAxes {

@@ -93,8 +93,11 @@ EffectInfo user_effect_info(const UserEffectSpec& spec,
 EffectParameter user_parameter(const std::string& name, Channel channel, double rms,
                                const UserEffectOptions& options) {
   const auto c = static_cast<std::size_t>(channel);
-  return {name, unit_of(channel), 1.0 / display_factor(channel), options.size_of_interest[c] / rms,
-          options.believable[c] / rms};
+  return {.name = name,
+          .unit = unit_of(channel),
+          .unit_in_si = 1.0 / display_factor(channel),
+          .size_of_interest = options.size_of_interest[c] / rms,
+          .prior_sigma = options.believable[c] / rms};
 }
 
 }  // namespace lvcalib

@@ -15,21 +15,46 @@ namespace {
 using Table = MeasurementTable;
 using Source = CovariateSource;
 
-// Kinds of covariates; the flags are: categories, of_beam, scanned, needs_time, needs_line.
-constexpr RowCovariate of_beam(const char* name, const char* unit,
-                               double (*value)(const Table&, const Source&)) {
-  return {name, unit, false, true, true, false, false, value};
+using Value = double (*)(const Table&, const Source&);
+
+// Kinds of covariates: of any row, of the beam alone, labels.
+constexpr RowCovariate of_row(const char* name, const char* unit, Value value) {
+  return {.name = name,
+          .unit = unit,
+          .categories = false,
+          .of_beam = false,
+          .scanned = true,
+          .needs_time = false,
+          .needs_line = false,
+          .value = value};
 }
-constexpr RowCovariate of_row(const char* name, const char* unit,
-                              double (*value)(const Table&, const Source&)) {
-  return {name, unit, false, false, true, false, false, value};
+constexpr RowCovariate of_beam(const char* name, const char* unit, Value value) {
+  RowCovariate out = of_row(name, unit, value);
+  out.of_beam = true;
+  return out;
 }
-constexpr RowCovariate labels(const char* name, double (*value)(const Table&, const Source&)) {
-  return {name, "", true, false, true, false, false, value};
+constexpr RowCovariate labels(const char* name, Value value) {
+  RowCovariate out = of_row(name, "", value);
+  out.categories = true;
+  return out;
 }
 constexpr RowCovariate timed(RowCovariate covariate) {
   covariate.needs_time = true;
   return covariate;
+}
+constexpr RowCovariate line_of_beam() {
+  RowCovariate out = labels(
+      "line", [](const Table&, const Source& s) { return static_cast<double>(s.beam->line); });
+  out.of_beam = true;
+  out.needs_line = true;
+  return out;
+}
+// 0 for u and 1 for v: lets a formula act along one axis only.
+constexpr RowCovariate axis_of_corner() {
+  RowCovariate out =
+      labels("axis", [](const Table&, const Source& s) { return static_cast<double>(s.axis); });
+  out.scanned = false;
+  return out;
 }
 
 double scan_across_edge(const Table&, const Source& s) {
@@ -73,8 +98,7 @@ std::vector<RowCovariate> beam_covariates() {
                     [](const Table&, const Source& s) {
                       return std::atan2(s.beam->scan_rad_s.y(), s.beam->scan_rad_s.x());
                     })),
-      {"line", "", true, true, true, false, true,
-       [](const Table&, const Source& s) { return static_cast<double>(s.beam->line); }}};
+      line_of_beam()};
   return out;
 }
 
@@ -101,9 +125,7 @@ std::vector<RowCovariate> corner_covariates() {
              [](const Table&, const Source& s) {
                return static_cast<double>(2 * s.corner->corner + s.axis);
              }),
-      // 0 for u and 1 for v: lets a formula act along one axis only.
-      {"axis", "", true, false, false, false, false,
-       [](const Table&, const Source& s) { return static_cast<double>(s.axis); }}};
+      axis_of_corner()};
 }
 
 std::vector<RowCovariate> range_covariates() {

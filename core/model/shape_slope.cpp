@@ -19,7 +19,10 @@ class ShapeSlope final : public Effect {
     high_ = std::min(std::max(*high, low_ + step), in_use.shape + step);
     info_ = effect_->info();
     info_.id += ".shape";
-    parameter_ = {effect_->shape_name(), "", 1.0, width, std::max(width, 10.0 * step)};
+    parameter_ = {.name = effect_->shape_name(),
+                  .unit = "",
+                  .size_of_interest = width,
+                  .prior_sigma = std::max(width, 10.0 * step)};
   }
 
   [[nodiscard]] const EffectInfo& info() const override { return info_; }

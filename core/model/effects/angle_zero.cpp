@@ -18,7 +18,12 @@ class AngleZero final : public CatalogueEffect {
                          .source = "definition of the LiDAR frame",
                          .discriminating_pose = "none: not defined apart from the extrinsic",
                          .needs = {}},
-                        {{"a", "mrad", 1e-3, 0.5e-3, 0.05}, {"b", "mrad", 1e-3, 0.5e-3, 0.05}}) {}
+                        alike({.name = "a",
+                               .unit = "mrad",
+                               .unit_in_si = 1e-3,
+                               .size_of_interest = 0.5e-3,
+                               .prior_sigma = 0.05},
+                              {"b"})) {}
   [[nodiscard]] bool is_gauge() const override { return true; }
 
   void lidar(const BeamPoint& beam, const MeasurementTable& /*table*/, double /*shape*/,

@@ -18,7 +18,12 @@ class BeamDivergence final : public CatalogueEffect {
                          .source = "Livox Avia manual; Laconte 2019",
                          .discriminating_pose = "circles at near and far distance",
                          .needs = {.circles = true, .intensity = true}},
-                        {{"γ²", "mrad²", 1e-6, 4e-6, 1e-4, 0.0}}) {}
+                        {{.name = "γ²",
+                          .unit = "mrad²",
+                          .unit_in_si = 1e-6,
+                          .size_of_interest = 4e-6,
+                          .prior_sigma = 1e-4,
+                          .lowest = 0.0}}) {}
 
   void blur(const BeamPoint& /*beam*/, const MeasurementTable& /*table*/, double /*shape*/,
             std::span<Eigen::Vector3d> by) const override {

@@ -20,7 +20,11 @@ class Blooming final : public CatalogueEffect {
              .discriminating_pose =
                  "prints of two contrasts, or distances with different footprints",
              .needs = {.circles = true, .intensity = true}},
-            {{"κ", "1", 1.0, 0.05, 1.0, 0.0}}) {}
+            {{.name = "κ",
+              .unit = "1",
+              .size_of_interest = 0.05,
+              .prior_sigma = 1.0,
+              .lowest = 0.0}}) {}
 
   void edge(const BoundaryRow& row, const MeasurementTable& /*table*/, double /*shape*/,
             std::span<double> by) const override {

@@ -18,9 +18,12 @@ class BoardBow final : public CatalogueEffect {
              .source = "measured on foam boards",
              .discriminating_pose = "none needed: turn the board by 90 degrees to confirm",
              .needs = {}},
-            {{"kx", "mm", 1e-3, 0.5e-3, 0.02},
-             {"ky", "mm", 1e-3, 0.5e-3, 0.02},
-             {"kxy", "mm", 1e-3, 0.5e-3, 0.02}}) {}
+            alike({.name = "kx",
+                   .unit = "mm",
+                   .unit_in_si = 1e-3,
+                   .size_of_interest = 0.5e-3,
+                   .prior_sigma = 0.02},
+                  {"ky", "kxy"})) {}
 
   void board(const PrintPoint& point, const Target& target, double /*shape*/,
              std::span<Eigen::Vector3d> by) const override {

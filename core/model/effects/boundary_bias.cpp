@@ -19,7 +19,11 @@ class BoundaryBias final : public CatalogueEffect {
              .source = "LV-Calib, boundary response",
              .discriminating_pose = "measure the printed circles: print growth looks the same",
              .needs = {.circles = true, .intensity = true}},
-            {{"δ0", "mm", 1e-3, 0.3e-3, 0.02}}) {}
+            {{.name = "δ0",
+              .unit = "mm",
+              .unit_in_si = 1e-3,
+              .size_of_interest = 0.3e-3,
+              .prior_sigma = 0.02}}) {}
 
   void edge(const BoundaryRow& /*row*/, const MeasurementTable& /*table*/, double /*shape*/,
             std::span<double> by) const override {

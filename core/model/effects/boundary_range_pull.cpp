@@ -20,7 +20,7 @@ class BoundaryRangePull final : public CatalogueEffect {
              .source = "derived; compare Laconte 2019",
              .discriminating_pose = "a board turned beyond 40 degrees",
              .needs = {.circles = true, .intensity = true}},
-            {{"a", "1", 1.0, 2.0, 3.0}}) {}
+            {{.name = "a", .unit = "1", .size_of_interest = 2.0, .prior_sigma = 3.0}}) {}
 
   void lidar(const BeamPoint& beam, const MeasurementTable& table, double /*shape*/,
              std::span<Eigen::Vector3d> by) const override {

@@ -23,8 +23,16 @@ class ChannelAngleOffset final : public CatalogueEffect {
   // can tell from the extrinsic.
   [[nodiscard]] std::vector<EffectParameter> parameters(
       const MeasurementTable& table) const override {
-    auto out = one_per_line(table, {"b", "mrad", 1e-3, 0.3e-3, 0.01});
-    const auto azimuth = one_per_line(table, {"c", "mrad", 1e-3, 0.3e-3, 0.01});
+    auto out = one_per_line(table, {.name = "b",
+                                    .unit = "mrad",
+                                    .unit_in_si = 1e-3,
+                                    .size_of_interest = 0.3e-3,
+                                    .prior_sigma = 0.01});
+    const auto azimuth = one_per_line(table, {.name = "c",
+                                              .unit = "mrad",
+                                              .unit_in_si = 1e-3,
+                                              .size_of_interest = 0.3e-3,
+                                              .prior_sigma = 0.01});
     out.insert(out.end(), azimuth.begin(), azimuth.end());
     return out;
   }

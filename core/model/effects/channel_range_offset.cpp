@@ -23,7 +23,11 @@ class ChannelRangeOffset final : public CatalogueEffect {
   // One parameter per laser line; what all have in common is a range offset, an effect of its own.
   [[nodiscard]] std::vector<EffectParameter> parameters(
       const MeasurementTable& table) const override {
-    return one_per_line(table, {"a", "mm", 1e-3, 2e-3, 0.03});
+    return one_per_line(table, {.name = "a",
+                                .unit = "mm",
+                                .unit_in_si = 1e-3,
+                                .size_of_interest = 2e-3,
+                                .prior_sigma = 0.03});
   }
 
   [[nodiscard]] std::vector<std::size_t> zero_sums(const MeasurementTable& table) const override {

@@ -21,7 +21,7 @@ class CornerBias final : public CatalogueEffect {
                  "boards at several distances: a print error in mm shrinks with the "
                  "distance, this does not",
              .needs = {.tags = true}},
-            {{"b", "px", 1.0, 0.05, 2.0}}) {}
+            {{.name = "b", .unit = "px", .size_of_interest = 0.05, .prior_sigma = 2.0}}) {}
 
   void camera(const CornerRow& row, const Eigen::Vector2d& /*normalized*/, const Camera& /*camera*/,
               double /*shape*/, std::span<Eigen::Vector2d> by) const override {

@@ -18,7 +18,12 @@ class DetectorLag final : public CatalogueEffect {
              .source = "derived",
              .discriminating_pose = "scans that cross edges in both directions",
              .needs = {.time = true, .circles = true, .intensity = true}},
-            {{"τ", "µs", 1e-6, 2e-6, 1e-3, 0.0}}) {}
+            {{.name = "τ",
+              .unit = "µs",
+              .unit_in_si = 1e-6,
+              .size_of_interest = 2e-6,
+              .prior_sigma = 1e-3,
+              .lowest = 0.0}}) {}
 
   void edge(const BoundaryRow& row, const MeasurementTable& table, double /*shape*/,
             std::span<double> by) const override {

@@ -9,18 +9,19 @@ namespace {
 class DistortionResidual final : public CatalogueEffect {
  public:
   DistortionResidual()
-      : CatalogueEffect({.id = "distortion_residual",
-                         .group = "camera",
-                         .title = "Residual distortion",
-                         .physics = "The lens distorts differently than the intrinsics file says.",
-                         .formula = "dx = x (k ρ²) + tangential (p1, p2)",
-                         .source = "mrcal",
-                         .discriminating_pose = "boards in the corners of the image",
-                         .needs = {},
-                         .of_intrinsics = true},
-                        {{"k", "1", 1.0, 5e-4, 0.5},
-                         {"p1", "1", 1.0, 2e-4, 0.1},
-                         {"p2", "1", 1.0, 2e-4, 0.1}}) {}
+      : CatalogueEffect(
+            {.id = "distortion_residual",
+             .group = "camera",
+             .title = "Residual distortion",
+             .physics = "The lens distorts differently than the intrinsics file says.",
+             .formula = "dx = x (k ρ²) + tangential (p1, p2)",
+             .source = "mrcal",
+             .discriminating_pose = "boards in the corners of the image",
+             .needs = {},
+             .of_intrinsics = true},
+            {{.name = "k", .unit = "1", .size_of_interest = 5e-4, .prior_sigma = 0.5},
+             {.name = "p1", .unit = "1", .size_of_interest = 2e-4, .prior_sigma = 0.1},
+             {.name = "p2", .unit = "1", .size_of_interest = 2e-4, .prior_sigma = 0.1}}) {}
 
   void camera(const CornerRow& /*row*/, const Eigen::Vector2d& normalized, const Camera& camera,
               double /*shape*/, std::span<Eigen::Vector2d> by) const override {

@@ -18,7 +18,11 @@ class EncoderLag final : public CatalogueEffect {
                          .source = "Glennie and Lichti 2011",
                          .discriminating_pose = "scans that cross the board in several directions",
                          .needs = {.time = true}},
-                        {{"τ", "µs", 1e-6, 2e-6, 1e-3}}) {}
+                        {{.name = "τ",
+                          .unit = "µs",
+                          .unit_in_si = 1e-6,
+                          .size_of_interest = 2e-6,
+                          .prior_sigma = 1e-3}}) {}
 
   void lidar(const BeamPoint& beam, const MeasurementTable& /*table*/, double /*shape*/,
              std::span<Eigen::Vector3d> by) const override {

@@ -17,7 +17,11 @@ class FootprintAnisotropy final : public CatalogueEffect {
                          .source = "Livox Avia manual",
                          .discriminating_pose = "circles far away",
                          .needs = {.circles = true, .intensity = true}},
-                        {{"a", "mrad²", 1e-6, 4e-6, 1e-4}}) {}
+                        {{.name = "a",
+                          .unit = "mrad²",
+                          .unit_in_si = 1e-6,
+                          .size_of_interest = 4e-6,
+                          .prior_sigma = 1e-4}}) {}
 
   void blur(const BeamPoint& /*beam*/, const MeasurementTable& /*table*/, double /*shape*/,
             std::span<Eigen::Vector3d> by) const override {

@@ -18,7 +18,12 @@ class FootprintOffset final : public CatalogueEffect {
              .source = "derived",
              .discriminating_pose = "boards near and far, strongly turned",
              .needs = {.circles = true, .intensity = true}},
-            {{"βh", "mrad", 1e-3, 0.3e-3, 0.02}, {"βv", "mrad", 1e-3, 0.3e-3, 0.02}}) {}
+            alike({.name = "βh",
+                   .unit = "mrad",
+                   .unit_in_si = 1e-3,
+                   .size_of_interest = 0.3e-3,
+                   .prior_sigma = 0.02},
+                  {"βv"})) {}
 
   void spot(const BeamPoint& beam, const MeasurementTable& /*table*/, double /*shape*/,
             std::span<Eigen::Vector3d> by) const override {

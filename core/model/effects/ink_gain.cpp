@@ -17,7 +17,11 @@ class InkGain final : public CatalogueEffect {
                          .source = "ISO 12647 dot gain",
                          .discriminating_pose = "measure a printed circle with a caliper",
                          .needs = {.circles = true, .intensity = true}},
-                        {{"g", "mm", 1e-3, 0.3e-3, 0.01}}) {}
+                        {{.name = "g",
+                          .unit = "mm",
+                          .unit_in_si = 1e-3,
+                          .size_of_interest = 0.3e-3,
+                          .prior_sigma = 0.01}}) {}
 
   // The LiDAR alone shows it: the fit of a tag's corners has a coefficient of its own for ink that
   // moves all edges to one side.

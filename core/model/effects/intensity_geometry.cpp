@@ -22,13 +22,15 @@ class IntensityGeometry final : public CatalogueEffect {
              .source = "Laconte 2019; Livox manuals",
              .discriminating_pose = "boards at several distances and angles",
              .needs = {.intensity = true}},
-            {{"n", "1", 1.0, 0.3, 3.0}, {"p", "1", 1.0, 0.3, 4.0}}) {}
+            {{.name = "n", .unit = "1", .size_of_interest = 0.3, .prior_sigma = 3.0},
+             {.name = "p", .unit = "1", .size_of_interest = 0.3, .prior_sigma = 4.0}}) {}
 
   // Gains are those relative to the first line: what all have in common is the scenes' levels.
   [[nodiscard]] std::vector<EffectParameter> parameters(
       const MeasurementTable& table) const override {
     std::vector<EffectParameter> out = CatalogueEffect::parameters(table);
-    const auto gains = one_per_line(table, {"g", "1", 1.0, 0.1, 1.0});
+    const auto gains = one_per_line(
+        table, {.name = "g", .unit = "1", .size_of_interest = 0.1, .prior_sigma = 1.0});
     if (gains.size() > 1 && gains.size() <= kMostLines)
       out.insert(out.end(), gains.begin() + 1, gains.end());
     return out;

@@ -25,7 +25,8 @@ class IntensityNonlinearity final : public CatalogueEffect {
              .source = "Mitka and Klapa 2025",
              .discriminating_pose = "prints of several greys, or a reflectance chart",
              .needs = {.circles = true, .intensity = true}},
-            {{"g", "1", 1.0, kSizeOfInterest, 2.0}}) {}
+            {{.name = "g", .unit = "1", .size_of_interest = kSizeOfInterest, .prior_sigma = 2.0}}) {
+  }
 
   [[nodiscard]] bool follows_white() const override { return true; }
 

@@ -19,9 +19,8 @@ class IntrinsicsError final : public CatalogueEffect {
              .discriminating_pose = "boards in all corners of the image and at several distances",
              .needs = {},
              .of_intrinsics = true},
-            {{"δf", "px", 1.0, 0.5, 100.0},
-             {"δcx", "px", 1.0, 0.5, 100.0},
-             {"δcy", "px", 1.0, 0.5, 100.0}}) {}
+            alike({.name = "δf", .unit = "px", .size_of_interest = 0.5, .prior_sigma = 100.0},
+                  {"δcx", "δcy"})) {}
 
   void camera(const CornerRow& /*row*/, const Eigen::Vector2d& normalized, const Camera& /*camera*/,
               double /*shape*/, std::span<Eigen::Vector2d> by) const override {

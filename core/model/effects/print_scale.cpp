@@ -17,9 +17,12 @@ class PrintScale final : public CatalogueEffect {
                          .source = "printers measured at up to 0.5 %",
                          .discriminating_pose = "measure the print with a ruler",
                          .needs = {}},
-                        {{"scale", "ppm", 1e-6, 500e-6, 0.02},
-                         {"anisotropy", "ppm", 1e-6, 500e-6, 0.02},
-                         {"shear", "ppm", 1e-6, 500e-6, 0.02}}) {}
+                        alike({.name = "scale",
+                               .unit = "ppm",
+                               .unit_in_si = 1e-6,
+                               .size_of_interest = 500e-6,
+                               .prior_sigma = 0.02},
+                              {"anisotropy", "shear"})) {}
 
   // A rule on the print knows its size better than printers in general are known.
   [[nodiscard]] std::vector<EffectParameter> parameters(

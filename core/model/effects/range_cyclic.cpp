@@ -19,7 +19,12 @@ class RangeCyclic final : public CatalogueEffect {
              .source = "Lichti and Licht 2006",
              .discriminating_pose = "a board turned so that its range spans two periods",
              .needs = {}},
-            {{"a", "mm", 1e-3, 0.7e-3, 0.03}, {"b", "mm", 1e-3, 0.7e-3, 0.03}}) {}
+            alike({.name = "a",
+                   .unit = "mm",
+                   .unit_in_si = 1e-3,
+                   .size_of_interest = 0.7e-3,
+                   .prior_sigma = 0.03},
+                  {"b"})) {}
 
   [[nodiscard]] std::vector<double> shapes(const MeasurementTable& table) const override {
     return period_grid(table);

@@ -21,7 +21,11 @@ class RangeDrift final : public CatalogueEffect {
              .discriminating_pose = "let the device run before the scan; boards beside the middle, "
                                     "where motion looks different",
              .needs = {.time = true}},
-            {{"a", "mm/s", 1e-3, 2e-3, 0.5}}) {}
+            {{.name = "a",
+              .unit = "mm/s",
+              .unit_in_si = 1e-3,
+              .size_of_interest = 2e-3,
+              .prior_sigma = 0.5}}) {}
 
   // From a tenth of a scan to so long that the drift is steady.
   [[nodiscard]] std::vector<double> shapes(const MeasurementTable& table) const override {

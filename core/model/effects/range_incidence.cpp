@@ -18,7 +18,11 @@ class RangeIncidence final : public CatalogueEffect {
              .source = "Soudarissanane 2009; Zámečníková 2015",
              .discriminating_pose = "a board turned beyond 50 degrees",
              .needs = {}},
-            {{"a", "mm", 1e-3, 2e-3, 0.05}}) {}
+            {{.name = "a",
+              .unit = "mm",
+              .unit_in_si = 1e-3,
+              .size_of_interest = 2e-3,
+              .prior_sigma = 0.05}}) {}
 
   void lidar(const BeamPoint& beam, const MeasurementTable& /*table*/, double /*shape*/,
              std::span<Eigen::Vector3d> by) const override {

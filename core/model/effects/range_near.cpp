@@ -18,7 +18,11 @@ class RangeNear final : public CatalogueEffect {
              .source = "HDL-64E S3 manual",
              .discriminating_pose = "a board below 1.5 m beside one beyond 3 m",
              .needs = {}},
-            {{"a", "mm", 1e-3, 5e-3, 0.1}}) {}
+            {{.name = "a",
+              .unit = "mm",
+              .unit_in_si = 1e-3,
+              .size_of_interest = 5e-3,
+              .prior_sigma = 0.1}}) {}
 
   [[nodiscard]] std::vector<double> shapes(const MeasurementTable&) const override {
     return {0.3, 0.6, 1.2, 2.4};

@@ -21,7 +21,11 @@ class RangeWalk final : public CatalogueEffect {
              .source = "Livox HAP and Mid-70 manuals; Laconte 2019",
              .discriminating_pose = "boards at two distances with the same print",
              .needs = {.intensity = true}},
-            {{"a", "mm", 1e-3, 2e-3, 0.05}}) {}
+            {{.name = "a",
+              .unit = "mm",
+              .unit_in_si = 1e-3,
+              .size_of_interest = 2e-3,
+              .prior_sigma = 0.05}}) {}
 
   // g is linear in ln P for exponent 0 and in a power of 1/P otherwise. Many LiDARs report
   // intensities that are freed from range and incidence: those shapes put cos θ/r² back, beside

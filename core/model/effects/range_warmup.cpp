@@ -17,7 +17,11 @@ class RangeWarmup final : public CatalogueEffect {
                          .source = "Glennie and Lichti 2011",
                          .discriminating_pose = "repeat the first scene at the end",
                          .needs = {}},
-                        {{"b", "mm", 1e-3, 2e-3, 0.05}}) {}
+                        {{.name = "b",
+                          .unit = "mm",
+                          .unit_in_si = 1e-3,
+                          .size_of_interest = 2e-3,
+                          .prior_sigma = 0.05}}) {}
 
   [[nodiscard]] std::vector<double> shapes(const MeasurementTable&) const override {
     return {0.15, 0.4, 1.0};

@@ -30,7 +30,16 @@ class ReceiverSaturation final : public CatalogueEffect {
              .source = "Mitka and Klapa 2025; Livox HAP and Mid-70 manuals",
              .discriminating_pose = "boards from close by to far away, square to the beam",
              .needs = {.intensity = true}},
-            {{"a", "mm", 1e-3, 2e-3, 0.05}, {"c", "1", 1.0, 0.2, 1.0, 0.0}}) {}
+            {{.name = "a",
+              .unit = "mm",
+              .unit_in_si = 1e-3,
+              .size_of_interest = 2e-3,
+              .prior_sigma = 0.05},
+             {.name = "c",
+              .unit = "1",
+              .size_of_interest = 0.2,
+              .prior_sigma = 1.0,
+              .lowest = 0.0}}) {}
 
   // From a receiver that clips all white print to one that clips the brightest alone.
   [[nodiscard]] std::vector<double> shapes(const MeasurementTable& table) const override {

@@ -18,7 +18,8 @@ class RollingShutter final : public CatalogueEffect {
              .source = "derived",
              .discriminating_pose = "let the rig rest",
              .needs = {}},
-            {{"v", "px", 1.0, 0.3, 50.0}, {"w", "px", 1.0, 0.3, 50.0}}) {}
+            alike({.name = "v", .unit = "px", .size_of_interest = 0.3, .prior_sigma = 50.0},
+                  {"w"})) {}
 
   void camera(const CornerRow& row, const Eigen::Vector2d& normalized, const Camera& camera,
               double /*shape*/, std::span<Eigen::Vector2d> by) const override {

@@ -17,9 +17,12 @@ class ScanMotion final : public CatalogueEffect {
                          .source = "derived",
                          .discriminating_pose = "let the rig rest; take a shorter scan",
                          .needs = {.time = true}},
-                        {{"vx", "mm/s", 1e-3, 5e-3, 1.0},
-                         {"vy", "mm/s", 1e-3, 5e-3, 1.0},
-                         {"vz", "mm/s", 1e-3, 5e-3, 1.0}}) {}
+                        alike({.name = "vx",
+                               .unit = "mm/s",
+                               .unit_in_si = 1e-3,
+                               .size_of_interest = 5e-3,
+                               .prior_sigma = 1.0},
+                              {"vy", "vz"})) {}
 
   void lidar(const BeamPoint& beam, const MeasurementTable& /*table*/, double /*shape*/,
              std::span<Eigen::Vector3d> by) const override {

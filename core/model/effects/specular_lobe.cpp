@@ -17,7 +17,11 @@ class SpecularLobe final : public CatalogueEffect {
                          .source = "Laconte 2019",
                          .discriminating_pose = "boards square to the beam beside turned ones",
                          .needs = {.intensity = true}},
-                        {{"k", "1", 1.0, 0.1, 5.0, 0.0}}) {}
+                        {{.name = "k",
+                          .unit = "1",
+                          .size_of_interest = 0.1,
+                          .prior_sigma = 5.0,
+                          .lowest = 0.0}}) {}
 
   [[nodiscard]] std::vector<double> shapes(const MeasurementTable&) const override {
     return {0.05, 0.12, 0.25};
