@@ -13,8 +13,10 @@ namespace {
 // that anybody would see.
 constexpr std::uint64_t kWorthTelling = 10;
 
+// A scene of a minute is long, and no sweep is over within a millisecond.
 constexpr double kLongestScan_s = 60.0;
 constexpr double kShortestScan_s = 1e-3;
+// Times since 1970, as clocks give them.
 constexpr double kYear2000_s = 946'684'800.0;
 constexpr double kYear2100_s = 4'102'444'800.0;
 

@@ -14,8 +14,8 @@
 namespace lvcalib {
 namespace {
 
-constexpr std::size_t kMinPoints = 10;
-constexpr double kMinCosIncidence = 0.02;
+constexpr std::size_t kMinPoints = 10;     // Three for each unknown.
+constexpr double kMinCosIncidence = 0.02;  // Errors of the plane come fifty times along such rays.
 // Tukey's constant for 98 % efficiency on Gaussian noise.
 constexpr double kTukey = 6.0;
 constexpr std::size_t kGroups = 4;

@@ -183,6 +183,7 @@ void add_corners(const Rigid3& camera_from_board, double sigma_px, TableScene& s
 }
 
 void measure_field_of_view(const MeasurementTable& table, SensorModel& out) {
+  // Boards are seldom held at the edge of what a sensor sees: so much more on either side.
   constexpr double kWider = 0.25;
   Eigen::Vector2d low = Eigen::Vector2d::Constant(HUGE_VAL);
   Eigen::Vector2d high = Eigen::Vector2d::Constant(-HUGE_VAL);
@@ -254,7 +255,7 @@ void take_field_of_view(const Cloud& cloud, SensorModel& sensors) {
   constexpr std::size_t kFewest = 100;   // fewer show no shape of a field
   constexpr std::size_t kMost = 20'000;  // tell an edge to a two-hundredth of the field
   constexpr double kOutermost = 0.002;   // share of returns left out on each side: reflections
-  constexpr double kGap = 0.2 * std::numbers::pi;
+  constexpr double kGap = 0.2 * std::numbers::pi;  // 36°: no post beside a scanner hides as much
   std::vector<Eigen::Vector2d> directions;
   std::vector<double> azimuths;
   const std::size_t stride = 1 + cloud.size() / kMost;

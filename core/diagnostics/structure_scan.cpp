@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kCoarse = 8;  // splines of a covariate
 constexpr int kFine = 32;   // where rows are many: ripples of several periods over the board
-constexpr std::size_t kRowsPerSpline = 50;
+constexpr std::size_t kRowsPerSpline = 50;  // A height is then known to a seventh of a row's noise.
 constexpr int kNuisance = LocalLayout::kFixed;
 constexpr int kFewNuisance = LocalLayout::kPose;
 

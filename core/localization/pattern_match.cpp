@@ -134,6 +134,7 @@ double spread(const std::vector<LocalSample>& samples) {
 std::vector<Eigen::Vector2d> promising_centers(const SampleGrid& grid,
                                                const PatternSearchRange& range, std::size_t count,
                                                const RunContext& context) {
+  // Four times the variance, which noise alone does not reach in a dozen samples.
   constexpr double kLively = 2.0;
   const int reach = static_cast<int>(std::ceil(range.slack_m / range.step_m));
   std::vector<Eigen::Vector2d> all;
@@ -178,6 +179,7 @@ std::vector<PatternMatch> separated(std::vector<RankedMatch> all, double separat
   std::sort(all.begin(), all.end(),
             [](const RankedMatch& a, const RankedMatch& b) { return a.gain > b.gain; });
   std::vector<PatternMatch> best;
+  // Several of the steps in which angles are tried, and far from a square board's quarter turn.
   constexpr double kSeparationAngle = 20.0 * std::numbers::pi / 180.0;
   for (const RankedMatch& ranked : all) {
     const PatternMatch& match = ranked.match;

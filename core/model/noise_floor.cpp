@@ -75,7 +75,7 @@ double Replicates::sigma() const {
 }
 
 double corner_noise(const MeasurementTable& table, const ModelState& state, double fallback_px) {
-  constexpr std::size_t kFewest = 12;
+  constexpr std::size_t kFewest = 12;  // These tell a standard deviation to a third.
   std::map<std::tuple<int, int, int>, Eigen::Vector2d> residual;  // scene, feature, corner
   for (const CornerRow& row : table.corner) {
     const auto p =

@@ -40,8 +40,9 @@ struct NoiseQuantile {
 };
 constexpr NoiseQuantile kOfManyPairs{0.10, 0.12566};
 constexpr NoiseQuantile kOfFewPairs{0.25, 0.31864};
-constexpr std::size_t kManyPairs = 100;
+constexpr std::size_t kManyPairs = 100;  // Of which a tenth are ten: enough for their largest.
 
+// Memory for the looks at a recording; longer ones are thinned out.
 constexpr std::size_t kImageBytes = std::size_t{60} << 20U;
 constexpr std::size_t kCloudBytes = std::size_t{60} << 20U;
 

@@ -47,8 +47,8 @@ NoiseShape fit_noise_shape(std::span<const std::vector<double>> squares,
 
 // Without what is far beyond a plateau's noise: strays (a tag's edge, another surface).
 void remove_strays(std::vector<double>& plateau) {
-  constexpr double kOutlier = 5.0;
-  constexpr double kMedianOfSquare = 0.4549;
+  constexpr double kOutlier = 5.0;            // Standard deviations, as everywhere.
+  constexpr double kMedianOfSquare = 0.4549;  // Of χ² with one degree of freedom.
   if (plateau.empty()) return;
   const double cut = kOutlier * kOutlier * median(plateau) / kMedianOfSquare;
   std::erase_if(plateau, [&](double square) { return square > cut; });
@@ -66,7 +66,7 @@ double TransitionNoise::plateau_sigma() const {
 }
 
 void TransitionNoise::update(const std::vector<TransitionResidual>& residuals) {
-  constexpr std::size_t kFewest = 20;
+  constexpr std::size_t kFewest = 20;  // These tell a variance to √(2/20), a third.
   if (residuals.size() < kFewest) return;
   std::array<std::vector<double>, kZones> squares;
   for (const TransitionResidual& r : residuals) squares[zone(r.z)].push_back(r.square);

@@ -13,7 +13,7 @@
 namespace lvcalib {
 namespace {
 
-constexpr std::size_t kFewestForWidth = 40;
+constexpr std::size_t kFewestForWidth = 40;  // Six or seven for each unknown.
 
 using Unknowns = Eigen::Matrix<double, 6, 1>;  // A_pp, A_py, A_yy, δ, μ_in, μ_out
 using Normal = Eigen::Matrix<double, 6, 6>;

@@ -205,7 +205,7 @@ Message clipped_reason(const NodePlateaus& node, const ResponseOptions& options)
 
 void judge(NodeResponse& node, NodePlateaus& plateaus, float low, float high,
            const ResponseOptions& options) {
-  constexpr std::size_t kLevelSamples = 8;
+  constexpr std::size_t kLevelSamples = 8;  // Their median is known to half of a sample's noise.
   const auto refuse = [&](NodeResponseState state, Message reason) {
     node.state = state;
     node.reason = std::move(reason);

@@ -140,7 +140,7 @@ JitterShare measure_jitter_share(const std::vector<const BoundarySample*>& sampl
   if (!fit.allFinite() || !(unit(3) > 0.0)) return {};
   // Squares of Gaussian residuals have the variance 2σ⁴.
   const double error = std::sqrt(2.0 * unit(3)) * sigma * sigma;
-  constexpr double kTooVague = 0.5;
+  constexpr double kTooVague = 0.5;  // Half of all that a share can be.
   if (!(error < kTooVague)) return {};
   return {std::clamp(fit(3), 0.0, 1.0), error};
 }
@@ -154,7 +154,7 @@ std::optional<ResponseStatistics> summarize_response(const OverlapSet& set,
     const Eigen::Vector2d b = s->across_m.cast<double>().normalized();
     directions += b * b.transpose() / static_cast<double>(set.samples.size());
   }
-  constexpr double kOneSided = 0.1;
+  constexpr double kOneSided = 0.1;  // All round: 0.5; all within 32° of one line: 0.1.
   if (axes_of(directions).values(0) < kOneSided) return std::nullopt;
   ResponseStatistics out;
   out.n = static_cast<int>(set.samples.size());

@@ -15,7 +15,7 @@ namespace {
 
 using Levels = PlateauLevels;
 
-constexpr std::size_t kFewestForFit = 20;
+constexpr std::size_t kFewestForFit = 20;  // Five for each unknown.
 
 std::optional<Levels> levels_of(std::span<const TransitionPoint> points, double delta_m,
                                 double sigma_m) {

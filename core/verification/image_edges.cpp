@@ -10,8 +10,12 @@
 namespace lvcalib {
 namespace {
 
+// Leaves 1/(2√π σ) of the pixels' noise, a quarter, and widens an edge by less than a pixel.
 constexpr double kBlur_px = 1.2;
+// The gradient of noise alone has a Rayleigh distribution, whose median is 1.18 σ: four standard
+// deviations, which one pixel in 3000 exceeds.
 constexpr double kAboveMedian = 3.4;
+// More of an image is texture, where an edge lies near everything.
 constexpr double kMostShare = 0.05;
 
 struct Gradient {
