@@ -5222,6 +5222,10 @@ were saved. Take them up again?</source>
         <translation>图像中没有内角点为 %1 × %2 的棋盘格，但有 %3 × %4 的</translation>
     </message>
     <message>
+        <source>with targetCols: %1 and targetRows: %2 it would not</source>
+        <translation>若 targetCols: %1、targetRows: %2 则不会</translation>
+    </message>
+    <message>
         <source>tagId: %1 would fit; or use the right board</source>
         <translation>tagId: %1 相符；或使用正确的标定板</translation>
     </message>

@@ -287,8 +287,16 @@ Status check_charuco(const Target& t) {
     return bad(Message("squareSize must be positive and markerSize smaller than it"));
   if (Status s = check_ids(t); !s) return s;
   if (Status s = check_outline_size(t); !s) return s;
-  return check_on_board(
-      t, t.column_spacing_m * Eigen::Vector2d(t.corner_columns + 1, t.corner_rows + 1));
+  const Eigen::Vector2d squares(t.corner_columns + 1, t.corner_rows + 1);
+  Status on_board = check_on_board(t, t.column_spacing_m * squares);
+  if (on_board) return on_board;
+  // Columns and rows are easily exchanged.
+  if (check_on_board(t, t.column_spacing_m * squares.reverse())) {
+    return bad(on_board.error().message,
+               Message("with targetCols: %1 and targetRows: %2 it would not", t.corner_rows + 1,
+                       t.corner_columns + 1));
+  }
+  return on_board;
 }
 
 Status check_family(const Target& t) {

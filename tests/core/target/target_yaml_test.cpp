@@ -229,6 +229,9 @@ TEST_F(TargetYaml, SaysWhatIsWrongWithACharucoBoardOrTag) {
               HasSubstr("expected true or false"));
   EXPECT_THAT(error(replaced(kCharuco, "boardWidth: 0.6", "boardWidth: 0.5")),
               HasSubstr("beyond the board's outline"));
+  EXPECT_THAT(error(replaced(replaced(kCharuco, "targetCols: 6", "targetCols: 8"), "targetRows: 8",
+                             "targetRows: 6")),
+              HasSubstr("with targetCols: 6 and targetRows: 8 it would not"));
   EXPECT_THAT(error(replaced(kCharuco, "markerSize: 0.066\n", "")), HasSubstr("markerSize"));
   EXPECT_THAT(error(replaced(kSingleTag, "tagId: 4\n", "")), HasSubstr("tagId"));
   EXPECT_THAT(error(replaced(kSingleTag, "tagId: 4", "tagId: 35")), HasSubstr("do not exist"));
