@@ -245,7 +245,6 @@ void finish(const NodeInput& in, const NodeState& at, const LayoutPose& first,
   result.scale_sigma = scale.sigma;
   result.footprint_m2 = at.model.footprint_m2();
   const TransitionNoise& noise = at.model.noise();
-  result.transition_noise = noise;
   result.intensity_noise = std::sqrt(0.5 * (noise.variance(-4.0) + noise.variance(4.0)));
   result.lidar_from_board = Rigid3::from_matrix(result.plane.turned(at.layout.angle_rad),
                                                 result.plane.to_lidar(at.layout.translation_m));

@@ -11,7 +11,6 @@
 #include "base/rigid3.h"
 #include "cloud/cloud.h"
 #include "cloud/plane.h"
-#include "refinement/transition_noise.h"
 #include "target/target.h"
 
 namespace lvcalib {
@@ -113,8 +112,7 @@ struct BoardRefinement {
   bool converged = false;
   /// Covariance of the transition's blur in the plane (footprint and angular jitter), m².
   Eigen::Matrix2d footprint_m2 = Eigen::Matrix2d::Zero();
-  TransitionNoise transition_noise;  ///< Of single samples across the circles' edges.
-  double intensity_noise = 0.0;      ///< Of a single sample, over the level difference.
+  double intensity_noise = 0.0;  ///< Of a single sample, over the level difference.
   double scale = 1.0;  ///< Size of the node layout measured by the LiDAR over the model's.
   double scale_sigma = 0.0;
   std::size_t board_points = 0;
