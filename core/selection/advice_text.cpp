@@ -2,6 +2,7 @@
 #include "selection/advice_text.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "base/text.h"
@@ -39,17 +40,26 @@ Message not_told_apart(const EffectFinding& finding, const EffectInfo& info) {
                  one_of(effects_named(finding.aliases)), Message::listed(info.discriminating_pose));
 }
 
+std::vector<StructureScore> strongest_of_each_channel(const std::vector<StructureScore>& unknown) {
+  std::vector<StructureScore> out;
+  std::set<Channel> seen;
+  std::copy_if(unknown.begin(), unknown.end(), std::back_inserter(out),
+               [&](const StructureScore& s) { return seen.insert(s.channel).second; });
+  return out;
+}
+
+Message unknown_text(const StructureScore& s) {
+  return Message(
+      "No effect of the catalogue explains what the %1 channel does over %2 (%3 % of its held-out "
+      "variance, %4).",
+      word_for(s.channel), covariates_named(s.covariates()), formatted("%.2g", 100.0 * s.score),
+      formatted("%.2g", s.amplitude) + behind_number(unit_of(s.channel)));
+}
+
 std::vector<Message> advise_unknown(const std::vector<StructureScore>& unknown) {
   std::vector<Message> out;
-  std::set<Channel> said;
-  for (const StructureScore& s : unknown) {
-    // The strongest covariate of a channel: others mostly see the same.
-    if (!said.insert(s.channel).second) continue;
-    out.push_back(Message(
-        "No effect of the catalogue explains what the %1 channel does over %2 (%3 % of its "
-        "held-out variance, %4); to take it out anyway: --with %5",
-        word_for(s.channel), covariates_named(s.covariates()), formatted("%.2g", 100.0 * s.score),
-        formatted("%.2g", s.amplitude) + behind_number(unit_of(s.channel)), curve_spec(s)));
+  for (const StructureScore& s : strongest_of_each_channel(unknown)) {
+    out.push_back(Message("%1 To take it out anyway: --with %2", unknown_text(s), curve_spec(s)));
     if (!s.formula.empty()) out.back() += Message(", or as a closed form: --with '%1'", s.formula);
   }
   return out;

@@ -20,8 +20,14 @@ Message values_text(const EffectFinding& finding);
 /// " These scenes cannot tell it from a or b; to tell: …": what a found effect may be as well.
 Message not_told_apart(const EffectFinding& finding, const EffectInfo& info);
 
-/// What to do about structure that no effect explains: the curve, and the closed form if there is
-/// one, to ask for with `--with`; the strongest few, one covariate per channel.
+/// The strongest structure of each channel: others of a channel mostly see the same.
+std::vector<StructureScore> strongest_of_each_channel(const std::vector<StructureScore>& unknown);
+
+/// That no effect explains it, where it is and how large, in a sentence.
+Message unknown_text(const StructureScore& structure);
+
+/// What to do about the strongest structure of each channel that no effect explains, on a command
+/// line: the curve, and the closed form if there is one, to ask for with `--with`.
 std::vector<Message> advise_unknown(const std::vector<StructureScore>& unknown);
 
 /// Scenes worth taking, in words.

@@ -66,6 +66,8 @@ struct ModelStep {
   std::shared_ptr<const ModelBasis> basis;
   ModelChange change = ModelChange::kStart;
   std::string changed;  ///< Spec of the effect that `change` is about.
+  /// The change could not be made, as of an effect that is not known: the model is as it was.
+  bool without_change = false;
   ModelState state;
   Matrix6d covariance = Matrix6d::Zero();  ///< Of the extrinsic; left, camera frame.
   std::shared_ptr<const ModelFit> fit;     ///< Linearised about `state`, scene by scene.

@@ -171,8 +171,6 @@ Result<ModelRanking> rank_effects(const ModelStep& step, const RunContext& conte
                    ? advise_scenes(scenes_taken(search), open_questions(search, findings),
                                    options.grid, context)
                    : advise(findings);
-  const auto about_unknown = advise_unknown(out.unknown);
-  out.advice.insert(out.advice.end(), about_unknown.begin(), about_unknown.end());
   out.budget = sensitivity_budget(search);
   const auto total =
       total_covariance(step.stated ? *step.stated : search, step.covariance, options.left_out);
@@ -206,13 +204,16 @@ Discovery as_discovery(const std::vector<ModelStepPtr>& steps, const ModelRankin
     for (const EffectProposal& p : ranking->proposals) out.effects.push_back(p.finding);
     out.unknown = ranking->unknown;
     out.advice = ranking->advice;
+    const auto about_unknown = advise_unknown(out.unknown);
+    out.advice.insert(out.advice.end(), about_unknown.begin(), about_unknown.end());
     out.budget = ranking->budget;
     out.covariance_total = ranking->covariance_total;
   }
   for (std::size_t k = 0; k < out.effects.size(); ++k)
     out.effects[k].rank = static_cast<int>(k) + 1;
   for (const ModelStepPtr& step : steps) {
-    const bool added = step->change == ModelChange::kAdd || step->change == ModelChange::kSwitchOn;
+    const bool added = !step->without_change && (step->change == ModelChange::kAdd ||
+                                                 step->change == ModelChange::kSwitchOn);
     out.history.push_back(
         {added ? step->changed : "", step->channels, step->state.camera_from_lidar});
   }

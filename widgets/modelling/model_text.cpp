@@ -188,7 +188,9 @@ QString criteria_html(const EffectProposal& proposal) {
   return QStringLiteral("<p><b>%1</b></p><table>%2</table><p>%3</p>").arg(head, rows, relevance);
 }
 
-QString step_text(const ModelStep& step) {
+namespace {
+
+QString change_text(const ModelStep& step) {
   const QString title = effect_title(step.changed);
   switch (step.change) {
     case ModelChange::kStart:
@@ -205,6 +207,15 @@ QString step_text(const ModelStep& step) {
       break;
   }
   return translated(QT_TRANSLATE_NOOP("ModelText", "%1 fitted")).arg(title);
+}
+
+}  // namespace
+
+QString step_text(const ModelStep& step) {
+  const QString text = change_text(step);
+  return step.without_change
+             ? translated(QT_TRANSLATE_NOOP("ModelText", "(%1: not possible)")).arg(text)
+             : text;
 }
 
 }  // namespace lvcalib::widgets

@@ -37,7 +37,7 @@ QString move_text(double mm, double mrad);
 /// whether it matters. Empty if nobody asked.
 QString criteria_html(const EffectProposal& proposal);
 
-/// A step of the history in a few words: "base", "+ Range walk".
+/// A step of the history in a few words: "base", "+ Range walk"; in brackets if nothing came of it.
 QString step_text(const ModelStep& step);
 
 }  // namespace lvcalib::widgets

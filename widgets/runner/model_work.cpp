@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/text.h"
 #include "pipeline/model_discovery.h"
 #include "runner/workspace.h"
 #include "words/core_text.h"
@@ -15,7 +16,7 @@ std::string key_of(const std::vector<ModelDecision>& decisions) {
   std::string key;
   for (const ModelDecision& d : decisions) {
     key += std::to_string(static_cast<int>(d.change)) + '\t' + d.spec;
-    for (const double value : d.values) key += '\t' + std::to_string(value);
+    for (const double value : d.values) key += formatted("\t%a", value);
     key += '\n';
   }
   return key;
@@ -42,8 +43,8 @@ class ModelWork::Command : public DescribedCommand {
         work_(work),
         before_(work.place_),
         after_(std::move(after)) {}
-  void undo() override { work_.arrive(before_); }
-  void redo() override { work_.arrive(after_); }
+  void undo() override { work_.turn_to(before_); }
+  void redo() override { work_.turn_to(after_); }
 
  private:
   ModelWork& work_;
@@ -81,6 +82,18 @@ std::shared_ptr<const ModelRanking> ModelWork::ranking() const {
   return at == rankings_.end() ? nullptr : at->second;
 }
 
+bool ModelWork::can_start() const {
+  return workspace_.result() != nullptr;
+}
+
+bool ModelWork::behind() const {
+  if (!busy_at_all()) return false;
+  // A step with no effect in use is the calibration itself.
+  const bool has_effects = step() ? !step()->in_use().empty() : place_.current > 0;
+  if (!result_) return has_effects;
+  return result_key_ != key_of(place_.in_force());
+}
+
 std::shared_ptr<const Discovery> ModelWork::discovery() const {
   std::vector<ModelStepPtr> made;
   for (std::size_t k = 0; k <= place_.current && k < steps_.size(); ++k) {
@@ -105,7 +118,7 @@ void ModelWork::forget() {
   made_.clear();
   rankings_.clear();
   fresh_ = {};
-  result_ = nullptr;
+  take_result(nullptr);
   update_steps();
   Q_EMIT changed();
   Q_EMIT ranking_changed();
@@ -163,13 +176,30 @@ void ModelWork::arrive(const Place& place) {
     build_result();
     return;
   }
-  result_ = nullptr;
+  results_.abandon();
+  take_result(nullptr);
   Q_EMIT result_changed();
   if (workspace_.result()) run(place_, {});
 }
 
+// Of the place that is shown.
+void ModelWork::take_result(std::shared_ptr<const CalibrationResult> result) {
+  result_ = std::move(result);
+  result_key_ = key_of(place_.in_force());
+}
+
+// By undo and redo. What is under way is of the place that is left: it would come back with it.
+void ModelWork::turn_to(const Place& place) {
+  if (pushing_) return arrive(place);
+  runner_.cancel();
+  arrive(place);
+  if (step() && !ranking()) rank();
+}
+
 void ModelWork::push(Place place, const DescribedCommand::Words& words) {
+  pushing_ = true;
   workspace_.undo_stack().push(new Command(*this, words, std::move(place)));
+  pushing_ = false;
 }
 
 void ModelWork::decide(ModelDecision decision, const char* text) {
@@ -196,6 +226,7 @@ void ModelWork::run(Place goal, const DescribedCommand::Words& words) {
         return decision_of(workspace_.decisions(), scene.toStdString()).insist;
       });
   source_ = source;
+  looking_ = false;
   runner_.start([this, source, goal, words, search, made = made_](
                     const RunContext& context, const Runner::Post& post) -> Runner::Deliver {
     const auto fail = [this](const Error& error) -> Runner::Deliver {
@@ -226,6 +257,7 @@ void ModelWork::run(Place goal, const DescribedCommand::Words& words) {
         auto carried = std::make_shared<ModelStep>(*steps.back());
         carried->change = wanted[k - 1].change;
         carried->changed = wanted[k - 1].spec;
+        carried->without_change = true;
         next = ModelStepPtr(std::move(carried));
       }
       if (!next) return fail(next.error());
@@ -234,8 +266,9 @@ void ModelWork::run(Place goal, const DescribedCommand::Words& words) {
     }
     // Before the search for what is missing: every page waits for it.
     auto result = result_at(source, steps);
-    post([this, goal, words, key = key_of(wanted), result = std::move(result)] {
+    post([this, goal, words, search, key = key_of(wanted), result = std::move(result)] {
       fresh_ = {key, result};
+      looking_ = !search;
       if (words.source == nullptr) {
         arrive(goal);
       } else {
@@ -253,6 +286,7 @@ void ModelWork::run(Place goal, const DescribedCommand::Words& words) {
 void ModelWork::rank() {
   const ModelStepPtr shown = step();
   if (!shown) return;
+  looking_ = true;
   runner_.start([this, shown, key = key_of(place_.in_force())](
                     const RunContext& context, const Runner::Post&) -> Runner::Deliver {
     auto ranking = rank_effects(*shown, context);
@@ -289,6 +323,7 @@ void ModelWork::hold(std::size_t k, const std::optional<Eigen::VectorXd>& values
 
 void ModelWork::find_all() {
   if (!step()) return;
+  looking_ = false;
   search_with_.clear();
   runner_.start([this, from = step(), source = source_, decided = place_.in_force()](
                     const RunContext& context, const Runner::Post& post) -> Runner::Deliver {
@@ -336,8 +371,10 @@ Runner::Deliver ModelWork::search_all(const ModelStepPtr& from,
 
 void ModelWork::go_to(std::size_t step) {
   if (step == place_.current || step > place_.decisions.size() || !this->step()) return;
+  // Looking for what is missing where nobody stands any more would only keep the user waiting.
+  runner_.cancel();
   push({place_.decisions, step}, {QT_TR_NOOP("go to step %1"), QString::number(step)});
-  if (!ranking() && !busy()) rank();
+  if (!ranking()) rank();
 }
 
 void ModelWork::cancel() {
@@ -351,15 +388,16 @@ void ModelWork::build_result() {
   const bool base = !found || found->model.empty();
   if (!source_ || (base && !(missing && missing->speaks_against_good() &&
                              source_->quality == Quality::kGood))) {
-    results_.cancel();
-    result_ = nullptr;
+    results_.abandon();
+    take_result(nullptr);
     Q_EMIT result_changed();
     return;
   }
   const auto fresh = std::exchange(fresh_, {});
-  if (!missing && fresh.second && fresh.first == key_of(place_.in_force())) {
-    results_.cancel();
-    result_ = fresh.second;
+  const Key key = key_of(place_.in_force());
+  if (!missing && fresh.second && fresh.first == key) {
+    results_.abandon();
+    take_result(fresh.second);
     Q_EMIT result_changed();
     return;
   }
@@ -367,10 +405,19 @@ void ModelWork::build_result() {
       [this, source = source_, found](const RunContext&, const Runner::Post&) -> Runner::Deliver {
         auto made = std::make_shared<const CalibrationResult>(with_model(*source, *found));
         return [this, made] {
-          result_ = made;
+          take_result(made);
           Q_EMIT result_changed();
         };
       });
+  // Until it is there, what is shown is of another place: pages say so. The calibration itself is
+  // there at once.
+  if (result_ && result_key_ == key) return;
+  if (!base) {
+    Q_EMIT fell_behind();
+  } else if (result_) {
+    take_result(nullptr);
+    Q_EMIT result_changed();
+  }
 }
 
 }  // namespace lvcalib::widgets

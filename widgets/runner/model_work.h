@@ -42,9 +42,13 @@ class ModelWork : public QObject {
   /// What is missing in the step shown; null as long as nobody has looked.
   [[nodiscard]] std::shared_ptr<const ModelRanking> ranking() const;
   [[nodiscard]] bool busy() const { return runner_.running(); }
-  /// Effects are in force, and the calibration with them is still being made: what is shown has
-  /// them not.
-  [[nodiscard]] bool behind() const { return place_.current > 0 && !result_ && busy_at_all(); }
+  /// Busy, but only with what is missing in a step that is there: the user may go on to another.
+  [[nodiscard]] bool looking() const { return busy() && looking_; }
+  /// There is a calibration to fit the model to.
+  [[nodiscard]] bool can_start() const;
+  /// The calibration with the effects that are in force is still being made: what result() has are
+  /// others, or none.
+  [[nodiscard]] bool behind() const;
 
   /// The calibration with the effects shown in its model; null if there are none.
   [[nodiscard]] std::shared_ptr<const CalibrationResult> result() const { return result_; }
@@ -69,7 +73,7 @@ class ModelWork : public QObject {
   /// contradicting the others are used all the same (a decision as the user's) if they agree with
   /// what is found with them: the search follows once the workspace has calibrated with them.
   void find_all();
-  /// Goes to a step (0: the base model).
+  /// Goes to a step (0: the base model); what is under way is given up.
   void go_to(std::size_t step);
   void cancel();
 
@@ -78,6 +82,8 @@ class ModelWork : public QObject {
   void changed();
   void ranking_changed();
   void result_changed();
+  /// The calibration with the effects that are in force is being made, see behind().
+  void fell_behind();
   void started();
   void progressed(const QString& stage, double fraction, const QString& text);
   /// The work has ended; `message` says how, may be empty.
@@ -103,6 +109,8 @@ class ModelWork : public QObject {
   Runner::Deliver search_all(const ModelStepPtr& from, std::vector<ModelDecision> decisions,
                              const RunContext& context, const Runner::Post& post);
   void arrive(const Place& place);
+  void turn_to(const Place& place);
+  void take_result(std::shared_ptr<const CalibrationResult> result);
   void push(Place place, const DescribedCommand::Words& words);
   void keep(const std::vector<ModelDecision>& decisions, const ModelStepPtr& step);
   void keep_ranking(const Key& key, ModelRanking ranking);
@@ -116,9 +124,12 @@ class ModelWork : public QObject {
   std::map<Key, std::shared_ptr<const ModelRanking>> rankings_;
   std::vector<ModelStepPtr> steps_;
   std::shared_ptr<const CalibrationResult> result_;
+  Key result_key_;  // The decisions whose effects it has.
   // What a run made of its last step, for the place where it arrives.
   std::pair<Key, std::shared_ptr<const CalibrationResult>> fresh_;
   Place place_;
+  bool looking_ = false;  // What runs is only the search for what is missing.
+  bool pushing_ = false;  // A change of its own arrives, not the user's undo or redo.
   // The next calibration, with these refused scenes in use, is searched to the end.
   QStringList search_with_;
   Runner results_;  // Makes the calibration with the model.

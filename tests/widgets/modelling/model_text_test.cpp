@@ -75,6 +75,12 @@ TEST(ModelText, StepsSayWhatWasDone) {
   EXPECT_EQ(step_text(*example.base), "base model");
   EXPECT_EQ(step_text(*example.mended), "+ Range walk");
   EXPECT_EQ(effect_title("formula:range:a*range"), "formula:range:a*range");
+  // What could not be done, as with an effect that another version has, is in brackets.
+  ModelStep carried = *example.base;
+  carried.change = ModelChange::kAdd;
+  carried.changed = "quantum_foam";
+  carried.without_change = true;
+  EXPECT_EQ(step_text(carried), "(+ quantum_foam: not possible)");
 }
 
 }  // namespace

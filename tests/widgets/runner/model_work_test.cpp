@@ -3,6 +3,7 @@
 
 #include <QTemporaryDir>
 #include <QTest>
+#include <QThread>
 #include <QUndoStack>
 
 #include <gmock/gmock.h>
@@ -210,6 +211,80 @@ TEST_F(Work, IsBehindUntilTheCalibrationWithTheModelIsMade) {
   EXPECT_FALSE(work_->behind());
 }
 
+// From one effect to another: until the calibration with it is there, what is shown is out of date,
+// and nothing is handed on.
+TEST_F(Work, IsBehindBetweenTwoStepsWithEffects) {
+  work_->start();
+  ASSERT_TRUE(idle());
+  work_->add("range_walk");
+  ASSERT_TRUE(idle());
+  work_->add("board_bow");
+  ASSERT_TRUE(idle());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return work_->result() && !work_->behind(); }, 30'000));
+  ASSERT_EQ(work_->result()->model.size(), 2U);
+  work_->go_to(1);
+  EXPECT_TRUE(work_->behind() || work_->result()->model.size() == 1U);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !work_->behind(); }, 30'000));
+  EXPECT_EQ(work_->result()->model.size(), 1U);
+  // What is made of a step that was left meanwhile does not arrive.
+  work_->go_to(2);
+  ASSERT_TRUE(work_->behind());
+  QThread::sleep(3);  // It is ready, and waits for this thread.
+  work_->go_to(0);
+  QTest::qWait(300);
+  EXPECT_TRUE(!work_->result() || work_->result()->model.empty());
+}
+
+// Values that differ by less than a millionth of a metre or of nothing are others.
+TEST_F(Work, SmallValuesThatAreHeldAreToldApart) {
+  work_->start();
+  ASSERT_TRUE(idle());
+  work_->add("range_walk");
+  ASSERT_TRUE(idle());
+  work_->hold(0, Eigen::VectorXd::Constant(1, 1e-7));
+  ASSERT_TRUE(idle());
+  workspace_->undo_stack().undo();
+  work_->hold(0, Eigen::VectorXd::Constant(1, 3e-7));
+  ASSERT_TRUE(idle());
+  EXPECT_DOUBLE_EQ(work_->step()->terms[0].use.values(0), 3e-7);
+}
+
+// Steps between are not asked for what is missing by a search for all: whoever comes back to one is
+// told all the same.
+TEST_F(Work, UndoAsksWhatIsMissingThere) {
+  work_->start();
+  ASSERT_TRUE(idle());
+  work_->add("range_walk");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return work_->current() == 1; }, 60'000));
+  ASSERT_TRUE(work_->looking());
+  // It goes on to the base at once, and what was looked for where nobody is any more ends.
+  workspace_->undo_stack().undo();
+  EXPECT_EQ(work_->current(), 0U);
+  ASSERT_TRUE(idle());
+  EXPECT_NE(work_->ranking(), nullptr);
+  workspace_->undo_stack().redo();
+  EXPECT_EQ(work_->current(), 1U);
+  EXPECT_EQ(work_->ranking(), nullptr);
+  EXPECT_TRUE(work_->looking());
+  ASSERT_TRUE(idle());
+  EXPECT_NE(work_->ranking(), nullptr);
+}
+
+// What is still being made when the user takes back what it stands on does not bring that back.
+TEST_F(Work, UndoGivesUpWhatIsUnderWay) {
+  work_->start();
+  ASSERT_TRUE(idle());
+  work_->add("range_walk");
+  ASSERT_TRUE(idle());
+  work_->add("board_bow");
+  workspace_->undo_stack().undo();
+  ASSERT_TRUE(idle());
+  QTest::qWait(100);
+  EXPECT_THAT(specs(), ElementsAre());
+  EXPECT_TRUE(workspace_->model().empty());
+  EXPECT_TRUE(workspace_->undo_stack().canRedo());
+}
+
 // Pages show an added effect at once, while the rest of the catalogue is still asked: what is made
 // for them does not share the processors with that search.
 TEST_F(Work, AnAddedEffectArrivesWithItsCalibration) {
@@ -242,6 +317,14 @@ TEST_F(Work, AnEffectThatThisVersionLacksIsCarried) {
   EXPECT_THAT(specs(), ElementsAre("range_walk"));
   EXPECT_EQ(work_->steps().size(), 3U);
   EXPECT_EQ(workspace_->model(), decisions);
+  // The history says that nothing came of it, and the report counts it as none.
+  EXPECT_TRUE(work_->steps()[1]->without_change);
+  EXPECT_FALSE(work_->steps()[2]->without_change);
+  const auto discovery = work_->discovery();
+  ASSERT_NE(discovery, nullptr);
+  ASSERT_EQ(discovery->history.size(), 3U);
+  EXPECT_EQ(discovery->history[1].added, "");
+  EXPECT_EQ(discovery->history[2].added, "range_walk");
   work_->go_to(0);
   EXPECT_TRUE(specs().empty());
   workspace_->undo_stack().undo();
