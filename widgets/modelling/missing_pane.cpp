@@ -24,6 +24,7 @@
 #include "model/row_covariates.h"
 #include "modelling/model_text.h"
 #include "modelling/residual_plot.h"
+#include "selection/advice_text.h"
 #include "style/fitting.h"
 #include "style/texts.h"
 #include "style/theme.h"
@@ -94,6 +95,13 @@ QString covariates_text(const StructureScore& s) {
   return core_text(covariates_named(s.covariates()));
 }
 
+// A specification that a click adds to the model.
+QString add_link(const std::string& spec, const QString& text) {
+  return QStringLiteral("<a href=\"%1\">%2</a>")
+      .arg(QString::fromLatin1(QUrl::toPercentEncoding(QString::fromStdString(spec))),
+           text.toHtmlEscaped());
+}
+
 }  // namespace
 
 MissingPane::MissingPane(QWidget* parent)
@@ -140,10 +148,10 @@ MissingPane::MissingPane(QWidget* parent)
   advice_->setObjectName(QStringLiteral("advice"));
   text_->setObjectName(QStringLiteral("proposal_text"));
   // A closed form is added from where it is told.
-  text_->setOpenLinks(false);
-  connect(text_, &QTextBrowser::anchorClicked, this, [this](const QUrl& formula) {
-    if (!busy_) Q_EMIT addWanted(QUrl::fromPercentEncoding(formula.toEncoded()));
-  });
+  for (QTextBrowser* told : {text_, advice_}) {
+    told->setOpenLinks(false);
+    connect(told, &QTextBrowser::anchorClicked, this, &MissingPane::addFrom);
+  }
   text_->setMinimumHeight(70);
   pattern_->setObjectName(QStringLiteral("pattern_plot"));
   pattern_->setMeansOnly(true);
@@ -203,6 +211,22 @@ void MissingPane::setRanking(std::shared_ptr<const ModelRanking> ranking, bool h
     fillAdvice();
   }
   describe();
+}
+
+void MissingPane::addFrom(const QUrl& spec) {
+  if (!busy_) Q_EMIT addWanted(QUrl::fromPercentEncoding(spec.toEncoded()));
+}
+
+void MissingPane::setCalibrated(bool calibrated) {
+  if (calibrated == calibrated_) return;
+  calibrated_ = calibrated;
+  describe();
+}
+
+void MissingPane::setDoubt(const Message& doubt) {
+  if (doubt == doubt_) return;
+  doubt_ = doubt;
+  updateVerdict();
 }
 
 void MissingPane::setReason(const QString& reason) {
@@ -324,6 +348,13 @@ void MissingPane::fillAdvice() {
   QString html;
   for (const Message& one : ranking_->advice)
     html += QStringLiteral("<li>%1</li>").arg(core_text(one).toHtmlEscaped());
+  for (const StructureScore& s : strongest_of_each_channel(ranking_->unknown)) {
+    QStringList links{add_link(curve_spec(s), tr("add a curve"))};
+    if (!s.formula.empty())
+      links << add_link(s.formula, tr("add %1").arg(QString::fromStdString(s.formula)));
+    html += QStringLiteral("<li>%1 %2</li>")
+                .arg(core_text(unknown_text(s)).toHtmlEscaped(), links.join(QStringLiteral(", ")));
+  }
   advice_->setHtml(html.isEmpty()
                        ? QStringLiteral("<p>%1</p>").arg(tr("No further scene is asked for."))
                        : QStringLiteral("<ul style=\"margin-left:-24px\">%1</ul>").arg(html));
@@ -333,12 +364,16 @@ void MissingPane::updateVerdict() {
   if (busy_) {
     verdict_->setText(tr("Looking for what is missing …"));
   } else if (!ranking_) {
-    verdict_->setText(has_model_          ? tr("Nobody has looked yet.")
-                      : reason_.isEmpty() ? tr("Run the calibration first.")
-                                          : reason_);
+    verdict_->setText(has_model_           ? tr("Nobody has looked yet.")
+                      : !reason_.isEmpty() ? reason_
+                      : calibrated_        ? tr("Nobody has looked yet.")
+                                           : tr("Run the calibration first."));
   } else if (ranking_->nothing_missing()) {
     verdict_->setText(
-        tr("<b>Nothing is missing</b> in the model, as far as these scenes can tell."));
+        doubt_.empty()
+            ? tr("<b>Nothing is missing</b> in the model, as far as these scenes can tell.")
+            : tr("<b>No effect is found to be missing.</b> The result is doubtful all the same: %1")
+                  .arg(core_text(doubt_).toHtmlEscaped()));
   } else if (!ranking_->unknown.empty()) {
     verdict_->setText(ranking_->unknown_matters()
                           ? tr("<b>Something is left</b> that no known effect explains.")
@@ -394,7 +429,7 @@ void MissingPane::describe() {
   add_->setEnabled(!busy_ && ((p != nullptr && !p->finding.parameters.empty()) || unknown));
   add_->setText(unknown != nullptr ? tr("Add &curve…") : tr("A&dd"));
   all_->setEnabled(!busy_ && has_model_);
-  look_->setEnabled(busy_ || has_model_);
+  look_->setEnabled(busy_ || has_model_ || (calibrated_ && reason_.isEmpty()));
   look_->setText(busy_ ? tr("Cancel") : tr("&Look again"));
   const void* shown = p != nullptr ? static_cast<const void*>(p) : unknown;
   if (shown == described_ && shown != nullptr) return;
@@ -431,11 +466,11 @@ void MissingPane::describeStructure(const StructureScore& s) {
           .arg(channel_name(s.channel), covariates_text(s))
           .arg(plain_number(s.amplitude, 2))
           .arg(unit_text(s.channel)) +
-      (s.formula.empty() ? QString()
-                         : tr("<p>A closed form predicts as well: <a href=\"%1\">add %2</a></p>")
-                               .arg(QString::fromLatin1(
-                                        QUrl::toPercentEncoding(QString::fromStdString(s.formula))),
-                                    QString::fromStdString(s.formula).toHtmlEscaped())));
+      (s.formula.empty()
+           ? QString()
+           : QStringLiteral("<p>%1 %2</p>")
+                 .arg(tr("A closed form predicts as well:"),
+                      add_link(s.formula, tr("add %1").arg(QString::fromStdString(s.formula))))));
   setPattern(nullptr);
   Q_EMIT structureChosen(s.channel, QString::fromStdString(s.covariate));
 }

@@ -15,6 +15,7 @@ class QTabWidget;
 class QTextBrowser;
 class QTreeWidget;
 class QTreeWidgetItem;
+class QUrl;
 
 namespace lvcalib::widgets {
 
@@ -30,8 +31,12 @@ class MissingPane : public QWidget {
   ~MissingPane() override;
   /// `ranking` null: nobody has looked yet (or is looking: `busy`).
   void setRanking(std::shared_ptr<const ModelRanking> ranking, bool has_model, bool busy);
+  /// Whether there is a calibration that a model can be fitted to.
+  void setCalibrated(bool calibrated);
   /// Why there is no model to look at; empty: there is no calibration yet.
   void setReason(const QString& reason);
+  /// What else speaks against the result: nothing is said to be missing beside it without that.
+  void setDoubt(const Message& doubt);
   /// The chosen effect's pattern; null: it leaves none.
   void setPattern(const std::shared_ptr<const ResidualFigure>& figure);
   /// The chosen proposal; null if none.
@@ -58,6 +63,7 @@ class MissingPane : public QWidget {
   void fitRows();
   void fillBudget();
   void fillAdvice();
+  void addFrom(const QUrl& spec);
   void addProposal(const EffectProposal& proposal, int index);
   void addUnknown(int index);
   void describe();
@@ -68,6 +74,8 @@ class MissingPane : public QWidget {
 
   std::shared_ptr<const ModelRanking> ranking_;
   QString reason_;
+  Message doubt_;
+  bool calibrated_ = false;
   bool has_model_ = false;
   bool busy_ = false;
   const void* described_ = nullptr;  // The proposal or structure whose text is shown.

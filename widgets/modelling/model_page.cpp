@@ -95,7 +95,7 @@ void ModelPage::createLayout() {
 void ModelPage::connectParts() {
   connect(compare_, &QPushButton::clicked, this, &ModelPage::compareWanted);
   connect(budget_, &BudgetPlot::stepClicked, this, [this](int step) {
-    if (!work_.busy()) work_.go_to(static_cast<std::size_t>(step));
+    if (!work_.busy() || work_.looking()) work_.go_to(static_cast<std::size_t>(step));
   });
   connect(terms_, &TermList::onWanted, this,
           [this](int k, bool on) { work_.set_on(static_cast<std::size_t>(k), on); });
@@ -143,6 +143,7 @@ void ModelPage::connectParts() {
 void ModelPage::connectWork() {
   connect(&work_, &ModelWork::changed, this, &ModelPage::takeSteps);
   connect(&work_, &ModelWork::ranking_changed, this, &ModelPage::takeRanking);
+  connect(&work_, &ModelWork::result_changed, this, &ModelPage::takeRanking);
   const auto busy = [this] {
     terms_->setChangeable(!work_.busy());
     takeSteps();
@@ -170,10 +171,13 @@ void ModelPage::takeSteps() {
   const ModelStepPtr step = work_.step();
   const ModelStepPtr base = step ? work_.steps().front() : nullptr;
   const QString told =
-      reason_.empty() ? tr("Run the calibration to see what its model explains and what it misses.")
-                      : core_text(reason_);
+      !reason_.empty() ? core_text(reason_)
+      : work_.can_start()
+          ? tr("The model is not fitted to this calibration yet: press Look again.")
+          : tr("Run the calibration to see what its model explains and what it misses.");
   const QString reason =
       work_.busy() ? tr("The measurements are being collected and the model fitted …") : told;
+  missing_->setCalibrated(work_.can_start());
   missing_->setReason(core_text(reason_));
   title_->setText(step ? QString() : reason);
   title_->setVisible(!title_->text().isEmpty());
@@ -222,6 +226,9 @@ void ModelPage::describeSteps() {
 void ModelPage::takeRanking() {
   const auto ranking = work_.ranking();
   budget_->setSomethingMissing(ranking && !ranking->nothing_missing());
+  const auto result = work_.result() ? work_.result() : work_.source();
+  const bool doubtful = result && !work_.behind() && result->quality != Quality::kGood;
+  missing_->setDoubt(doubtful ? result->quality_reason : Message());
   missing_->setRanking(work_.ranking(), work_.step() != nullptr, work_.busy());
 }
 

@@ -86,6 +86,20 @@ TEST(MissingPaneTest, NothingMissingIsSaid) {
   EXPECT_TRUE(pane.findChild<QLabel*>("missing_verdict")->text().contains("Nothing is missing"));
 }
 
+// The sentence on top does not contradict what the calibration itself found wrong.
+TEST(MissingPaneTest, NothingIsMissingOnlyWhereNothingElseSpeaksAgainstTheResult) {
+  MissingPane pane;
+  const auto* verdict = pane.findChild<QLabel*>("missing_verdict");
+  pane.setRanking(std::make_shared<const ModelRanking>(), true, false);
+  EXPECT_TRUE(verdict->text().contains("Nothing is missing"));
+  pane.setDoubt(Message("dark returns lie too far: an effect is missing in the model"));
+  EXPECT_FALSE(verdict->text().contains("Nothing is missing"));
+  EXPECT_TRUE(verdict->text().contains("dark returns lie too far"))
+      << verdict->text().toStdString();
+  pane.setDoubt({});
+  EXPECT_TRUE(verdict->text().contains("Nothing is missing"));
+}
+
 TEST(MissingPaneTest, BusyItOffersToCancelOnly) {
   MissingPane pane;
   pane.setRanking(test::model_example().missing, true, true);
@@ -124,6 +138,48 @@ TEST(MissingPaneTest, AClosedFormIsAddedFromWhereItIsTold) {
   Q_EMIT text->anchorClicked(QUrl(html.mid(at, html.indexOf('"', at) - at)));
   ASSERT_EQ(add.count(), 1);
   EXPECT_EQ(add.last().at(0).toString().toStdString(), formula);
+}
+
+// A click adds the curve just as it is suggested, and nothing speaks of a command line.
+TEST(MissingPaneTest, WhatIsAdvisedIsAddedFromWhereItIsTold) {
+  ModelRanking ranking;
+  ranking.unknown.push_back({Channel::kRange, "azimuth", 0.21, 3.0});
+  ranking.unknown.back().formula = "formula:range:a*sin(25*azimuth) + b";
+  ranking.unknown.push_back({Channel::kBoundary, "board x", 0.11, 2.0});
+  ranking.unknown.back().second_covariate = "board y";
+  MissingPane pane;
+  pane.setRanking(std::make_shared<const ModelRanking>(ranking), true, false);
+  auto* advice = pane.findChild<QTextBrowser*>("advice");
+  EXPECT_FALSE(advice->toPlainText().contains("--")) << advice->toPlainText().toStdString();
+  QSignalSpy add(&pane, &MissingPane::addWanted);
+  const QString html = advice->toHtml();
+  QStringList wanted;
+  for (auto at = html.indexOf("href=\""); at >= 0; at = html.indexOf("href=\"", at + 1))
+    Q_EMIT advice->anchorClicked(QUrl(html.mid(at + 6, html.indexOf('"', at + 6) - at - 6)));
+  for (const auto& one : add) wanted << one.at(0).toString();
+  EXPECT_EQ(wanted, QStringList({"curve:range:azimuth", "formula:range:a*sin(25*azimuth) + b",
+                                 "curve:boundary:board_x,board_y"}));
+}
+
+// As after a fit that was cancelled: it can be taken up again from here.
+TEST(MissingPaneTest, WithACalibrationAndNoModelItOffersToLook) {
+  MissingPane pane;
+  const auto* verdict = pane.findChild<QLabel*>("missing_verdict");
+  auto* look = pane.findChild<QPushButton*>("look_missing");
+  pane.setRanking(nullptr, false, false);
+  EXPECT_EQ(verdict->text(), "Run the calibration first.");
+  EXPECT_FALSE(look->isEnabled());
+  pane.setCalibrated(true);
+  EXPECT_EQ(verdict->text(), "Nobody has looked yet.");
+  ASSERT_TRUE(look->isEnabled());
+  QSignalSpy wanted(&pane, &MissingPane::lookWanted);
+  look->click();
+  EXPECT_EQ(wanted.count(), 1);
+  // What cannot be fitted says why, and asks for nothing.
+  pane.setReason("not enough scenes");
+  pane.setRanking(nullptr, false, false);
+  EXPECT_EQ(verdict->text(), "not enough scenes");
+  EXPECT_FALSE(look->isEnabled());
 }
 
 TEST(MissingPaneTest, WhatMattersIsToldFromWhatDoesNot) {
