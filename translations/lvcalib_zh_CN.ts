@@ -5034,10 +5034,6 @@ were saved. Take them up again?</source>
         <translation>激光雷达和相机不能都叫“%1”：读取者无法区分这两个坐标系</translation>
     </message>
     <message>
-        <source>No effect of the catalogue explains what the %1 channel does over %2 (%3 % of its held-out variance, %4); to take it out anyway: --with %5</source>
-        <translation>目录中没有效应能解释%1通道随 %2 的变化（占其留出方差的 %3 %，%4）；仍要去除它：--with %5</translation>
-    </message>
-    <message>
         <source>from point %1 of %2 on none is a return (all are NaN, infinite or at the origin), as if the recording had been cut off</source>
         <translation>从第 %1 点起（共 %2 点）再无回波（全为 NaN、无穷大或位于原点），似乎录制被中断</translation>
     </message>
@@ -5229,12 +5225,44 @@ were saved. Take them up again?</source>
         <source>tagId: %1 would fit; or use the right board</source>
         <translation>tagId: %1 相符；或使用正确的标定板</translation>
     </message>
+    <message>
+        <source>%1 To take it out anyway: --with %2</source>
+        <translation>%1仍要去除它：--with %2</translation>
+    </message>
+    <message>
+        <source>No effect of the catalogue explains what the %1 channel does over %2 (%3 % of its held-out variance, %4).</source>
+        <translation>目录中没有效应能解释%1通道随 %2 的变化（占其留出方差的 %3 %，%4）。</translation>
+    </message>
 </context>
 <context>
     <name>CoreWords</name>
     <message>
         <source>These totals are still the base model&apos;s: this model&apos;s follow once the effects that it may lack have been looked for.</source>
         <translation>目前的总计仍是基础模型的：查找完此模型可能缺少的效应后，才会给出此模型的总计。</translation>
+    </message>
+    <message>
+        <source>good</source>
+        <translation>良好</translation>
+    </message>
+    <message>
+        <source>doubtful</source>
+        <translation>存疑</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>失败</translation>
+    </message>
+    <message>
+        <source>%1 (out of date)</source>
+        <translation>%1（已过期）</translation>
+    </message>
+    <message>
+        <source>good so far; still looking for what is missing</source>
+        <translation>目前良好；仍在查找遗漏的效应</translation>
+    </message>
+    <message>
+        <source>good so far; nobody has looked for what is missing</source>
+        <translation>目前良好；尚未查找遗漏的效应</translation>
     </message>
 </context>
 <context>
@@ -5496,6 +5524,10 @@ were saved. Take them up again?</source>
         <source>tried, it predicts no worse</source>
         <translation>试用后预测不变差</translation>
     </message>
+    <message>
+        <source>(%1: not possible)</source>
+        <translation>（%1：无法实现）</translation>
+    </message>
 </context>
 <context>
     <name>PlanText</name>
@@ -5688,18 +5720,6 @@ were saved. Take them up again?</source>
 </context>
 <context>
     <name>lvcalib::widgets</name>
-    <message>
-        <source>good</source>
-        <translation>良好</translation>
-    </message>
-    <message>
-        <source>doubtful</source>
-        <translation>存疑</translation>
-    </message>
-    <message>
-        <source>failed</source>
-        <translation>失败</translation>
-    </message>
     <message>
         <source>Quality:</source>
         <translation>质量：</translation>
@@ -8900,10 +8920,6 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
         <translation>&lt;b&gt;不缺任何有影响的效应。&lt;/b&gt;仍有已知效应无法解释的结构，但小到不会移动外参。</translation>
     </message>
     <message>
-        <source>&lt;p&gt;A closed form predicts as well: &lt;a href=&quot;%1&quot;&gt;add %2&lt;/a&gt;&lt;/p&gt;</source>
-        <translation>&lt;p&gt;一个闭式公式预测得同样好：&lt;a href=&quot;%1&quot;&gt;添加 %2&lt;/a&gt;&lt;/p&gt;</translation>
-    </message>
-    <message>
         <source>Next scenes</source>
         <translation>下一步场景</translation>
     </message>
@@ -8914,6 +8930,22 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
     <message>
         <source>Effects that these scenes do not show, and by how much each could move the extrinsic all the same</source>
         <translation>这些场景看不出的效应，以及每个效应仍可能使外参移动多少</translation>
+    </message>
+    <message>
+        <source>add a curve</source>
+        <translation>添加曲线</translation>
+    </message>
+    <message>
+        <source>add %1</source>
+        <translation>添加 %1</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;No effect is found to be missing.&lt;/b&gt; The result is doubtful all the same: %1</source>
+        <translation>&lt;b&gt;未发现遗漏的效应。&lt;/b&gt;但结果仍然存疑：%1</translation>
+    </message>
+    <message>
+        <source>A closed form predicts as well:</source>
+        <translation>有一个闭式公式预测得同样好：</translation>
     </message>
 </context>
 <context>
@@ -8961,6 +8993,10 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
     <message>
         <source>mrad from the truth</source>
         <translation>与真值相差 mrad</translation>
+    </message>
+    <message>
+        <source>The model is not fitted to this calibration yet: press Look again.</source>
+        <translation>模型尚未对此标定进行拟合：请按“重新查找”。</translation>
     </message>
 </context>
 <context>
@@ -9845,18 +9881,6 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
         <translation>绕相机 x y z 轴旋转的 ±σ</translation>
     </message>
     <message>
-        <source>good</source>
-        <translation>良好</translation>
-    </message>
-    <message>
-        <source>doubtful</source>
-        <translation>存疑</translation>
-    </message>
-    <message>
-        <source>failed</source>
-        <translation>失败</translation>
-    </message>
-    <message>
         <source>Quality: %1</source>
         <translation>质量：%1</translation>
     </message>
@@ -10363,22 +10387,6 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
         <translation>仿真</translation>
     </message>
     <message>
-        <source>good</source>
-        <translation>良好</translation>
-    </message>
-    <message>
-        <source>doubtful</source>
-        <translation>存疑</translation>
-    </message>
-    <message>
-        <source>failed</source>
-        <translation>失败</translation>
-    </message>
-    <message>
-        <source>%1 (out of date)</source>
-        <translation>%1（已过期）</translation>
-    </message>
-    <message>
         <source>Writing the report</source>
         <translation>写报告</translation>
     </message>
@@ -10425,14 +10433,6 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
     <message>
         <source>%1: %2</source>
         <translation>%1：%2</translation>
-    </message>
-    <message>
-        <source>good so far; still looking for what is missing</source>
-        <translation>目前良好；仍在查找遗漏的效应</translation>
-    </message>
-    <message>
-        <source>good so far; nobody has looked for what is missing</source>
-        <translation>目前良好；尚未查找遗漏的效应</translation>
     </message>
 </context>
 <context>
@@ -11416,10 +11416,6 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
         <translation>%1：%2/%3 个场景，%4 px，%5 mm</translation>
     </message>
     <message>
-        <source>good</source>
-        <translation>良好</translation>
-    </message>
-    <message>
         <source>doubtful</source>
         <translation>存疑</translation>
     </message>
@@ -11434,6 +11430,10 @@ Compare, locate, learn, add, watch: what the model misses, and what that does to
     <message>
         <source>The dataset was read again</source>
         <translation>已重新读取数据集</translation>
+    </message>
+    <message>
+        <source>good so far</source>
+        <translation>目前良好</translation>
     </message>
 </context>
 <context>

@@ -144,7 +144,7 @@ void MainWindow::connect_actions() {
   on(actions_->about, [this] { (new AboutDialog(this))->show(); });
   on(actions_->save, [this] { save(false); });
   on(actions_->save_as, [this] { save(true); });
-  on(actions_->results, [this] { results_->show(final_result()); });
+  on(actions_->results, [this] { results_->show(final_result(), standing()); });
   on(actions_->report,
      [this] { results_->write_report(final_result(), model_work_->discovery()); });
   const auto target_camera = [this] {

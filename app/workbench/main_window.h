@@ -16,6 +16,7 @@
 #include "runner/watch_work.h"
 #include "runner/workspace.h"
 #include "start/app_settings.h"
+#include "words/quality_text.h"
 
 namespace lvcalib::widgets {
 
@@ -100,6 +101,8 @@ class MainWindow : public QMainWindow {
   void update_title();
   /// The calibration with the model's effects, or as it was run.
   [[nodiscard]] std::shared_ptr<const CalibrationResult> final_result() const;
+  /// What the verdict on it rests on.
+  [[nodiscard]] Standing standing() const;
   [[nodiscard]] QString scene_name(int index) const;
   [[nodiscard]] int scene_index(const QString& name) const;
 

@@ -37,6 +37,10 @@ void MainWindow::connect_model() {
   });
   connect(work, &ModelWork::logged, log_, &LogDock::append);
   connect(work, &ModelWork::result_changed, this, &MainWindow::show_result);
+  connect(work, &ModelWork::fell_behind, this, [this] {
+    show_quality();
+    update_actions();
+  });
   connect(pages_->model_page(), &ModelPage::compareWanted, this, &MainWindow::compare);
 }
 
@@ -44,14 +48,20 @@ std::shared_ptr<const CalibrationResult> MainWindow::final_result() const {
   return model_work_->result() ? model_work_->result() : workspace_->result();
 }
 
-void MainWindow::show_quality() {
+Standing MainWindow::standing() const {
   const auto ranking = model_work_->ranking();
   const Missing missing = model_work_->busy()              ? Missing::kSought
                           : !ranking                       ? Missing::kNotSought
                           : ranking->speaks_against_good() ? Missing::kSomething
                                                            : Missing::kNothing;
-  status_->show_quality(final_result(), workspace_->up_to_date() && !model_work_->behind(),
-                        missing);
+  return {missing, workspace_->up_to_date() && !model_work_->behind()};
+}
+
+void MainWindow::show_quality() {
+  const Standing now = standing();
+  status_->show_quality(final_result(), now);
+  pages_->set_standing(now);
+  results_->follow(final_result(), now);
 }
 
 void MainWindow::compare() {

@@ -181,6 +181,10 @@ void PageStack::set_result(const std::shared_ptr<const CalibrationResult>& resul
   show_samples();  // Beams are the same in another result.
 }
 
+void PageStack::set_standing(const Standing& standing) {
+  extrinsic_->setStanding(standing);
+}
+
 void PageStack::set_scene(int scene, const std::optional<CropBox>& box) {
   current_ = scene;
   latest_.reset();

@@ -13,6 +13,7 @@
 #include "pages/world_pane.h"
 #include "pipeline/calibration.h"
 #include "runner/scene_data.h"
+#include "words/quality_text.h"
 
 class QTabWidget;
 
@@ -52,6 +53,8 @@ class PageStack : public QStackedWidget {
   /// What is open, after a change on disk too: on the page of the camera.
   void set_dataset(const Dataset& dataset);
   void set_result(const std::shared_ptr<const CalibrationResult>& result);
+  /// What the verdict on that result rests on.
+  void set_standing(const Standing& standing);
   void set_scene(int scene, const std::optional<CropBox>& box);
   /// The box in force; a box that is being edited stays unless this one is another than before.
   void set_crop_box(const std::optional<CropBox>& box);

@@ -39,12 +39,23 @@ ResultActions::ResultActions(Choices& choices, AppSettings& settings, QWidget& w
 
 void ResultActions::set_frames(const FrameNames& names) {
   frames_ = names;
+  following_.clear();
   ++opened_;
 }
 
-void ResultActions::show(const std::shared_ptr<const CalibrationResult>& result) {
+void ResultActions::follow(const std::shared_ptr<const CalibrationResult>& result,
+                           const Standing& standing) {
+  std::erase_if(following_, [](const auto& dialog) { return dialog == nullptr; });
+  if (!result) return;
+  for (const auto& dialog : following_) dialog->set_result(result, standing);
+}
+
+void ResultActions::show(const std::shared_ptr<const CalibrationResult>& result,
+                         const Standing& standing) {
   if (!result) return;
   auto* dialog = new ResultsDialog(result, choices_, settings_.last_folder(), &window_);
+  dialog->set_result(result, standing);
+  following_.emplace_back(dialog);
   dialog->set_frame_names(QString::fromStdString(frames_.lidar),
                           QString::fromStdString(frames_.camera));
   connect(dialog, &ResultsDialog::frame_names_changed, this,

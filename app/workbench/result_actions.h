@@ -2,8 +2,10 @@
 #pragma once
 
 #include <QObject>
+#include <QPointer>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "dialogs/choices.h"
 #include "report/frame_names.h"
@@ -11,8 +13,11 @@
 #include "runner/report_writer.h"
 #include "start/app_settings.h"
 #include "tools/plan_dialog.h"
+#include "words/quality_text.h"
 
 namespace lvcalib::widgets {
+
+class ResultsDialog;
 
 /// What is done with a result: the results dialog, the report, corrected clouds, a comparison, a
 /// plan of more scenes.
@@ -26,7 +31,9 @@ class ResultActions : public QObject {
   /// Something was opened, whose frames are called so.
   void set_frames(const FrameNames& names);
   /// Nothing without a result.
-  void show(const std::shared_ptr<const CalibrationResult>& result);
+  void show(const std::shared_ptr<const CalibrationResult>& result, const Standing& standing);
+  /// What is open now has this result: dialogs that show one of it follow.
+  void follow(const std::shared_ptr<const CalibrationResult>& result, const Standing& standing);
   /// Asks for a file and writes the report in the background.
   /// `discovery`: what was found out about the model, may be null.
   void write_report(const std::shared_ptr<const CalibrationResult>& result,
@@ -69,6 +76,7 @@ class ResultActions : public QObject {
   AppSettings& settings_;
   QWidget& window_;
   FrameNames frames_;
+  std::vector<QPointer<ResultsDialog>> following_;
   int opened_ = 0;  // A dialog of what was open before names nothing of what is open now.
   ReportWriter report_;
 };

@@ -88,32 +88,22 @@ void StatusLine::show_idle(const QString& message) {
 }
 
 void StatusLine::show_quality(const std::shared_ptr<const CalibrationResult>& result,
-                              bool up_to_date, Missing missing) {
+                              const Standing& standing) {
   mark_->setVisible(result != nullptr);
   quality_->setVisible(result != nullptr);
   if (!result) return;
-  // What is missing makes a good result doubtful; until that is known it is neither.
-  const bool good = result->quality == Quality::kGood && missing != Missing::kSomething;
-  const bool bad = result->quality == Quality::kFailed;
-  const bool open = good && missing != Missing::kNothing;
-  shown_ = !up_to_date || open ? Mark::kIdle
-           : good              ? Mark::kGood
-           : bad               ? Mark::kBad
-                               : Mark::kDoubtful;
+  const ToldQuality told = told_quality(*result, standing);
+  shown_ = told.open                          ? Mark::kIdle
+           : told.quality == Quality::kGood   ? Mark::kGood
+           : told.quality == Quality::kFailed ? Mark::kBad
+                                              : Mark::kDoubtful;
   draw_mark();
-  const QString word = good ? tr("good") : bad ? tr("failed") : tr("doubtful");
-  QString text = !up_to_date ? tr("%1 (out of date)").arg(word)
-                 : !open     ? word
-                 : missing == Missing::kSought
-                     ? tr("good so far; still looking for what is missing")
-                     : tr("good so far; nobody has looked for what is missing");
   QStringList more;
   if (!result->quality_reason.empty()) more << core_text(result->quality_reason);
   // Whose verdict it is.
   const PoseUse use = pose_use(*result);
-  text = tr("%1: %2").arg(core_text(use.model), text);
   more << core_text(use.clouds);
-  quality_->setText(text);
+  quality_->setText(tr("%1: %2").arg(core_text(use.model), told.words));
   quality_->setToolTip(more.join(QLatin1Char('\n')));
   // A longer verdict would be cut until the next layout.
   layout()->activate();

@@ -7,19 +7,12 @@
 
 #include "pipeline/calibration.h"
 #include "style/marks.h"
+#include "words/quality_text.h"
 
 class QLabel;
 class QProgressBar;
 
 namespace lvcalib::widgets {
-
-/// What a search has found to be missing in the model whose quality is shown.
-enum class Missing {
-  kNothing,  ///< Or nothing that matters.
-  kSomething,
-  kSought,     ///< The search is still going on.
-  kNotSought,  ///< There was no search, or it came to no end.
-};
 
 /// Stage, fraction and text of what runs; quality of what is there.
 class StatusLine : public QStatusBar {
@@ -30,9 +23,8 @@ class StatusLine : public QStatusBar {
   void show_progress(const QString& stage, double fraction, const QString& text);
   /// Nothing runs; `message` stays as the text.
   void show_idle(const QString& message);
-  /// A result is called good, without more, only where nothing is missing in its model.
-  void show_quality(const std::shared_ptr<const CalibrationResult>& result, bool up_to_date,
-                    Missing missing);
+  void show_quality(const std::shared_ptr<const CalibrationResult>& result,
+                    const Standing& standing);
   [[nodiscard]] QString text() const;
 
  protected:

@@ -14,6 +14,7 @@
 #include <QPushButton>
 #include <QSplitter>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <utility>
 
 #include "pipeline/calibration.h"
@@ -98,10 +99,7 @@ QWidget* ExportPane::createPreview() {
   auto* buttons = new QHBoxLayout;
   scene_ = new QComboBox(page);
   scene_->setObjectName(QStringLiteral("export_scene"));
-  for (const ExportScene& scene : input_.scenes) {
-    if (!scene.cloud.empty() && !scene.image.empty())
-      scene_->addItem(QString::fromStdString(scene.name));
-  }
+  fillScenes();
   buttons->addWidget(imu_);
   buttons->addWidget(scene_);
   buttons->addStretch(1);
@@ -127,6 +125,25 @@ QWidget* ExportPane::createPreview() {
   layout->addWidget(text_, 1);
   layout->addLayout(buttons);
   return page;
+}
+
+void ExportPane::fillScenes() {
+  const QString before = scene_->currentText();
+  scene_->clear();
+  for (const ExportScene& scene : input_.scenes) {
+    if (!scene.cloud.empty() && !scene.image.empty())
+      scene_->addItem(QString::fromStdString(scene.name));
+  }
+  scene_->setCurrentIndex(std::max(0, scene_->findText(before)));
+}
+
+void ExportPane::setInput(ExportInput input) {
+  input.lidar_frame = std::move(input_.lidar_frame);
+  input.camera_frame = std::move(input_.camera_frame);
+  if (input_.imu_from_lidar) input.imu_from_lidar = input_.imu_from_lidar;
+  input_ = std::move(input);
+  fillScenes();
+  preview();
 }
 
 void ExportPane::chooseFormat(const QString& name) {

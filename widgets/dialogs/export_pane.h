@@ -26,6 +26,8 @@ class ExportPane : public QWidget {
   /// `folder`: where files are suggested. `choices` must outlive the pane.
   ExportPane(ExportInput input, Choices& choices, QString folder, QWidget* parent);
 
+  /// Another result; the frames' names and T_imu_lidar are the user's and stay.
+  void setInput(ExportInput input);
   /// What the frames are called.
   void setFrameNames(const QString& lidar, const QString& camera);
   /// Chooses a format by its name; unknown names change nothing.
@@ -40,6 +42,7 @@ class ExportPane : public QWidget {
  private:
   QWidget* createList();
   QWidget* createPreview();
+  void fillScenes();
   void retranslate();
   void preview();
   void readImu();

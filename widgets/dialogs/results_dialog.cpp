@@ -78,21 +78,17 @@ QString list(const std::vector<Message>& lines) {
   return out + QStringLiteral("</ul>");
 }
 
-QString quality_line(const CalibrationResult& result) {
-  const StateColors colors = state_colors(QGuiApplication::palette());
-  const auto [color, text] = [&]() -> std::pair<QColor, QString> {
-    switch (result.quality) {
-      case Quality::kGood:
-        return {colors.good, ResultsDialog::tr("good")};
-      case Quality::kDoubtful:
-        return {colors.doubtful, ResultsDialog::tr("doubtful")};
-      case Quality::kFailed:
-        break;
-    }
-    return {colors.bad, ResultsDialog::tr("failed")};
-  }();
-  QString line = QStringLiteral("<h2 style='color:%1'>%2</h2>")
-                     .arg(color.name(), ResultsDialog::tr("Quality: %1").arg(text));
+QString quality_line(const CalibrationResult& result, const Standing& standing) {
+  const QPalette palette = QGuiApplication::palette();
+  const StateColors colors = state_colors(palette);
+  const ToldQuality told = told_quality(result, standing);
+  const QColor color = told.open                          ? palette.color(QPalette::Text)
+                       : told.quality == Quality::kGood   ? colors.good
+                       : told.quality == Quality::kFailed ? colors.bad
+                                                          : colors.doubtful;
+  QString line =
+      QStringLiteral("<h2 style='color:%1'>%2</h2>")
+          .arg(color.name(), ResultsDialog::tr("Quality: %1").arg(told.words).toHtmlEscaped());
   if (!result.quality_reason.empty()) {
     line += QStringLiteral("<p>%1</p>").arg(core_text(result.quality_reason).toHtmlEscaped());
   }
@@ -111,9 +107,9 @@ QString matrix_text(const CalibrationResult& result) {
   return out;
 }
 
-QString results_html(const CalibrationResult& result) {
+QString results_html(const CalibrationResult& result, const Standing& standing) {
   const ExtrinsicSolution& x = result.extrinsic;
-  QString out = quality_line(result);
+  QString out = quality_line(result, standing);
   out += QStringLiteral("<p>%1</p>")
              .arg(ResultsDialog::tr(
                       "T_camera_lidar from %1 of %2 scenes; %3 px at the tag corners, %4 mm at "
@@ -192,27 +188,42 @@ ResultsDialog::ResultsDialog(std::shared_ptr<const CalibrationResult> result, Ch
   });
 }
 
+void ResultsDialog::set_result(std::shared_ptr<const CalibrationResult> result,
+                               const Standing& standing) {
+  if (result == result_ && standing == standing_) return;
+  const bool another = result != result_;
+  result_ = std::move(result);
+  standing_ = standing;
+  fill_pose();
+  if (another) exports_->setInput(export_input_of(*result_));
+}
+
+void ResultsDialog::fill_pose() {
+  text_->setHtml(results_html(*result_, standing_));
+  matrix_->setPlainText(matrix_text(*result_));
+}
+
 QWidget* ResultsDialog::create_pose() {
   auto* page = new QWidget(this);
-  auto* text = new QTextBrowser(page);
-  text->setObjectName(QStringLiteral("results"));
-  auto* matrix = new QPlainTextEdit(matrix_text(*result_), page);
-  matrix->setObjectName(QStringLiteral("matrix"));
-  matrix->setReadOnly(true);
-  matrix->setLineWrapMode(QPlainTextEdit::NoWrap);
-  matrix->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
-  matrix->setFixedHeight(6 * matrix->fontMetrics().lineSpacing());
-  follow_language(page, [this, text, matrix] {
-    text->setHtml(results_html(*result_));
-    matrix->setToolTip(
+  text_ = new QTextBrowser(page);
+  text_->setObjectName(QStringLiteral("results"));
+  matrix_ = new QPlainTextEdit(page);
+  matrix_->setObjectName(QStringLiteral("matrix"));
+  matrix_->setReadOnly(true);
+  matrix_->setLineWrapMode(QPlainTextEdit::NoWrap);
+  matrix_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+  matrix_->setFixedHeight(6 * matrix_->fontMetrics().lineSpacing());
+  follow_language(page, [this] {
+    fill_pose();
+    matrix_->setToolTip(
         tr("Takes a point from the LiDAR frame to the camera frame (x right, y down, "
            "z forward); lengths in metres"));
   });
-  matrix->setTabChangesFocus(true);
+  matrix_->setTabChangesFocus(true);
   auto* layout = new QVBoxLayout(page);
   layout->setContentsMargins(0, 4, 0, 0);
-  layout->addWidget(text, 1);
-  layout->addWidget(matrix);
+  layout->addWidget(text_, 1);
+  layout->addWidget(matrix_);
   return page;
 }
 

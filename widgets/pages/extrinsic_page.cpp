@@ -248,6 +248,12 @@ void ExtrinsicPage::setResult(std::shared_ptr<const CalibrationResult> result) {
   colors_->setResult(result_);
 }
 
+void ExtrinsicPage::setStanding(const Standing& standing) {
+  if (standing == standing_) return;
+  standing_ = standing;
+  if (!stale_) fillTexts();
+}
+
 void ExtrinsicPage::setSceneData(int scene, std::shared_ptr<const Cloud> full_cloud, QImage image) {
   world_->setScan(full_cloud);
   colors_->setSceneData(scene, std::move(full_cloud), std::move(image));
@@ -259,7 +265,7 @@ void ExtrinsicPage::changeEvent(QEvent* event) {
 }
 
 void ExtrinsicPage::fillTexts() {
-  pose_->setHtml(result_ ? pose_html(*result_, palette())
+  pose_->setHtml(result_ ? pose_html(*result_, standing_, palette())
                          : "<p>" + tr("Run the calibration to see its result.") + "</p>");
   uncertainty_->setText(result_.get());
 }

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "pipeline/calibration.h"
+#include "words/quality_text.h"
 
 class QTabWidget;
 class QLabel;
@@ -35,6 +36,8 @@ class ExtrinsicPage : public QWidget {
   ~ExtrinsicPage() override;
 
   void setResult(std::shared_ptr<const CalibrationResult> result);
+  /// What the verdict on that result rests on.
+  void setStanding(const Standing& standing);
   /// Cloud and image of the scene to show in camera colours.
   void setSceneData(int scene, std::shared_ptr<const Cloud> full_cloud, QImage image);
 
@@ -71,6 +74,7 @@ class ExtrinsicPage : public QWidget {
   [[nodiscard]] QStringList scenesBeyond() const;
 
   std::shared_ptr<const CalibrationResult> result_;
+  Standing standing_;
   bool stale_ = false;  // What is shown is in the words before.
   QTextBrowser* pose_ = nullptr;
   UncertaintyPane* uncertainty_ = nullptr;

@@ -19,19 +19,16 @@ QString number(double value, int decimals) {
   return QString::number(value, 'f', decimals).replace('-', QChar(0x2212));
 }
 
-QString quality_line(const CalibrationResult& result, const QPalette& palette) {
+QString quality_line(const CalibrationResult& result, const Standing& standing,
+                     const QPalette& palette) {
   const StateColors colors = state_colors(palette);
-  QColor color = colors.good;
-  QString name = tr("good");
-  if (result.quality == Quality::kDoubtful) {
-    color = colors.doubtful;
-    name = tr("doubtful");
-  } else if (result.quality == Quality::kFailed) {
-    color = colors.bad;
-    name = tr("failed");
-  }
+  const ToldQuality told = told_quality(result, standing);
+  const QColor color = told.open                          ? palette.color(QPalette::Text)
+                       : told.quality == Quality::kGood   ? colors.good
+                       : told.quality == Quality::kFailed ? colors.bad
+                                                          : colors.doubtful;
   QString line = QString("<p><b>%1 <span style='color:%2'>%3</span></b>")
-                     .arg(tr("Quality:"), color.name(), name);
+                     .arg(tr("Quality:"), color.name(), told.words.toHtmlEscaped());
   if (!result.quality_reason.empty()) {
     line += " – " + core_text(result.quality_reason).toHtmlEscaped();
   }
@@ -115,11 +112,12 @@ QString list(const std::vector<Message>& lines) {
 
 }  // namespace
 
-QString pose_html(const CalibrationResult& result, const QPalette& palette) {
+QString pose_html(const CalibrationResult& result, const Standing& standing,
+                  const QPalette& palette) {
   const UncertainRigid3& pose = result.extrinsic.camera_from_lidar;
   const UncertainRigid3 total{pose.transform, result.covariance_total};
   const PoseUse use = pose_use(result);
-  QString html = quality_line(result, palette);
+  QString html = quality_line(result, standing, palette);
   html += QStringLiteral("<p><b>%1</b> %2<br>%3</p>")
               .arg(tr("Model:").toHtmlEscaped(), core_text(use.model).toHtmlEscaped(),
                    core_text(use.clouds).toHtmlEscaped());

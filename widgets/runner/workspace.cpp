@@ -469,7 +469,8 @@ void Workspace::take_run(SessionRun run) {
   }
   up_to_date_ = true;
   const CalibrationResult& r = *state_.latest;
-  const QString quality = r.quality == Quality::kGood       ? tr("good")
+  // Nobody has looked for what is missing yet.
+  const QString quality = r.quality == Quality::kGood       ? tr("good so far")
                           : r.quality == Quality::kDoubtful ? tr("doubtful")
                                                             : tr("failed");
   const QString line = tr("%1: %2 of %3 scenes, %4 px, %5 mm")

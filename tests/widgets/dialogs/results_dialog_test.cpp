@@ -5,6 +5,7 @@
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QTemporaryDir>
+#include <QTextBlock>
 #include <QTextDocument>
 #include <numbers>
 
@@ -30,7 +31,7 @@ CalibrationResult example() {
 
 TEST(ResultsDialog, ShowsThePoseInAllFormsWithItsUncertainty) {
   QTextDocument document;
-  document.setHtml(results_html(example()));
+  document.setHtml(results_html(example(), {}));
   const QString text = document.toPlainText();
   for (const char* part :
        {"100.000", "-234.500", "300.000",     // mm
@@ -40,6 +41,19 @@ TEST(ResultsDialog, ShowsThePoseInAllFormsWithItsUncertainty) {
         "doubtful", "only <one> scene", "take more", "rotation about x is weak"}) {
     EXPECT_TRUE(text.contains(QString::fromUtf8(part))) << part;
   }
+}
+
+TEST(ResultsDialog, NothingIsCalledGoodWhileTheSearchGoesOn) {
+  CalibrationResult result = example();
+  result.quality = Quality::kGood;
+  const auto head = [&](Missing missing) {
+    QTextDocument document;
+    document.setHtml(results_html(result, {missing, true}));
+    return document.firstBlock().text();
+  };
+  EXPECT_EQ(head(Missing::kSought), "Quality: good so far; still looking for what is missing");
+  EXPECT_EQ(head(Missing::kSomething), "Quality: doubtful");
+  EXPECT_EQ(head(Missing::kNothing), "Quality: good");
 }
 
 TEST(ResultsDialog, TheMatrixHasItsRowsInOrder) {

@@ -21,9 +21,9 @@ CalibrationResult example() {
   return result;
 }
 
-QString plain(const CalibrationResult& result) {
+QString plain(const CalibrationResult& result, const Standing& standing = {}) {
   QTextDocument document;
-  document.setHtml(pose_html(result, QPalette()));
+  document.setHtml(pose_html(result, standing, QPalette()));
   return document.toPlainText();
 }
 
@@ -33,6 +33,16 @@ TEST(PoseText, NamesPoseAndStandardDeviations) {
                            "± 1.00", "± 2.00", "± 3.00", "± 0.0057", "± 0.0172", "0.300 mrad"}) {
     EXPECT_TRUE(text.contains(part)) << part << "\n" << text.toStdString();
   }
+}
+
+TEST(PoseText, NothingIsCalledGoodWhileTheSearchGoesOn) {
+  const auto first = [](const Standing& standing) {
+    return plain(example(), standing).section(u'\n', 0, 0);
+  };
+  EXPECT_TRUE(first({Missing::kSought, true}).contains("good so far; still looking"));
+  EXPECT_TRUE(first({Missing::kSomething, true}).contains("doubtful"));
+  EXPECT_TRUE(first({Missing::kNothing, false}).contains("good (out of date)"));
+  EXPECT_FALSE(first({Missing::kNothing, true}).contains("so far"));
 }
 
 TEST(PoseText, WeakDirectionsAndWarningsAreTextNotMarkup) {

@@ -5,6 +5,7 @@
 #include <QPushButton>
 #include <QTabWidget>
 #include <QTemporaryDir>
+#include <QTextBrowser>
 #include <QTimer>
 #include <QTreeWidget>
 #include <set>
@@ -99,6 +100,13 @@ class Flow : public ::testing::Test {
       if (ranking && ranking->speaks_against_good())
         contradictions_.insert("good beside what is missing: " + beside);
     }
+    // The page of the pose says the same as the status line.
+    const QString pose = test::find<QTextBrowser>(window_, "pose")->toPlainText();
+    const bool called_good = pose.startsWith("Quality: good") && !pose.contains("good so far") &&
+                             !pose.contains("out of date");
+    if (test::find<QTextBrowser>(window_, "pose")->isVisible() && called_good &&
+        (work().busy() || !ranking || ranking->speaks_against_good()))
+      contradictions_.insert("the pose is good and nobody knows yet: " + beside);
     const auto* bars = test::find<BudgetPlot>(window_, "budget_plot");
     for (int k = 0; !ranking && work().steps().size() == 1 && k < bars->itemCount(); ++k) {
       const auto* bar = qobject_cast<QCPItemRect*>(bars->item(k));
@@ -236,6 +244,49 @@ TEST_F(Flow, TwoHiddenEffectsAreFoundOneAfterTheOther) {
   ASSERT_TRUE(test::trigger(window_, "undo"));
   EXPECT_TRUE(work().step()->terms.empty());
   EXPECT_LT(mended, 0.5 * unexplained(Channel::kRange));
+}
+
+// From the end of the calibration to the end of the search, on the page of the pose; and a dialog
+// of the result that is open meanwhile.
+TEST_F(Flow, ThePoseIsCalledGoodOnceNothingIsMissing) {
+  const QString path = folder_.filePath("rig");
+  ASSERT_TRUE(make_demo(path.toStdString(), small_rig(4, {}), {}));
+  window_.open(path);
+  ASSERT_TRUE(test::wait_until([&] { return window_.workspace().is_open(); }));
+  ASSERT_TRUE(test::wait_until([&] { return !window_.workspace().busy(); }));
+  test::find<QTabWidget>(window_, "pages")->setCurrentIndex(2);
+  test::trigger(window_, "run");
+  ASSERT_TRUE(test::wait_for_result(window_));
+  ASSERT_TRUE(work().busy());
+  const auto* pose = test::find<QTextBrowser>(window_, "pose");
+  EXPECT_THAT(pose->toPlainText().toStdString(), HasSubstr("good so far; still looking"));
+  ASSERT_TRUE(test::trigger(window_, "results"));
+  const auto* results = test::find<QTextBrowser>(window_, "results");
+  ASSERT_NE(results, nullptr);
+  EXPECT_THAT(results->toPlainText().toStdString(), HasSubstr("good so far; still looking"));
+  ASSERT_TRUE(wait_idle());
+  EXPECT_THAT(pose->toPlainText().toStdString(), ::testing::StartsWith("Quality: good\n"));
+  EXPECT_THAT(results->toPlainText().toStdString(), ::testing::StartsWith("Quality: good\n"));
+}
+
+// A fit that was cancelled can be taken up again where it is missed.
+TEST_F(Flow, ACancelledFitCanBeTakenUpAgain) {
+  ASSERT_TRUE(open_and_run(small_rig(4, {}), false));
+  test::click_scene(window_, "C", true);
+  if (!window_.workspace().up_to_date()) test::trigger(window_, "run");
+  ASSERT_TRUE(test::wait_for_result(window_));
+  ASSERT_TRUE(test::wait_until([&] { return work().busy() && !work().step(); }, 60'000));
+  test::trigger(window_, "cancel");
+  ASSERT_TRUE(test::wait_until([&] { return !work().busy(); }, 60'000));
+  ASSERT_FALSE(work().step());
+  EXPECT_EQ(test::find<QLabel>(window_, "missing_verdict")->text(), "Nobody has looked yet.");
+  EXPECT_THAT(test::find<QLabel>(window_, "model_message")->text().toStdString(),
+              HasSubstr("press Look again"));
+  auto* look = test::find<QPushButton>(window_, "look_missing");
+  ASSERT_TRUE(look->isEnabled());
+  QTest::mouseClick(look, Qt::LeftButton);
+  ASSERT_TRUE(wait_idle());
+  EXPECT_NE(work().ranking(), nullptr);
 }
 
 // With too few scenes for a model the whole page says so, and nothing asks for what is done.

@@ -4,13 +4,16 @@
 #include <QDialog>
 #include <QFile>
 #include <QListWidget>
+#include <QPlainTextEdit>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTemporaryDir>
+#include <QTextBrowser>
 #include <QWidget>
 
 #include <gtest/gtest.h>
 
+#include "dialogs/results_dialog.h"
 #include "widgets/support/calibrated_demo.h"
 #include "widgets/support/driver.h"
 
@@ -42,7 +45,7 @@ TEST_F(ResultActionsTest, TheReportIsWrittenAndItsFolderRemembered) {
 }
 
 TEST_F(ResultActionsTest, NothingHappensWithoutResultOrWithoutAFile) {
-  actions_.show(nullptr);
+  actions_.show(nullptr, {});
   actions_.write_report(nullptr, nullptr);
   answers_.export_to.clear();
   actions_.write_report(test::calibrated_demo().result, nullptr);
@@ -65,7 +68,7 @@ TEST_F(ResultActionsTest, FailureAndCancelAreTold) {
 }
 
 TEST_F(ResultActionsTest, ExportsFromTheDialogAreTold) {
-  actions_.show(test::calibrated_demo().result);
+  actions_.show(test::calibrated_demo().result, {});
   auto* dialog = window_.findChild<QDialog*>("results_dialog");
   ASSERT_NE(dialog, nullptr);
   auto* list = test::find<QListWidget>(*dialog, "formats");
@@ -77,6 +80,36 @@ TEST_F(ResultActionsTest, ExportsFromTheDialogAreTold) {
   QFile file(answers_.export_to);
   ASSERT_TRUE(file.open(QIODevice::ReadOnly));
   EXPECT_TRUE(file.readAll().contains("covariance"));
+}
+
+// As when the user goes back in the history of the model: the dialog shows and hands on what every
+// page shows. One of a dataset that is not open any more stays as it is.
+TEST_F(ResultActionsTest, AnOpenDialogFollowsTheModelInForce) {
+  const auto base = test::calibrated_demo().result;
+  actions_.show(base, {Missing::kSought, true});
+  auto* dialog = window_.findChild<QDialog*>("results_dialog");
+  ASSERT_NE(dialog, nullptr);
+  const auto text = [&] { return test::find<QTextBrowser>(*dialog, "results")->toPlainText(); };
+  EXPECT_FALSE(text().contains("Range walk"));
+  auto modelled = std::make_shared<CalibrationResult>(*base);
+  modelled->model = {{"range_walk", {{"a", "mm", 1e-3, 0.01, 0.001}}}};
+  modelled->model_scales.darkness_high = 1.0;
+  modelled->extrinsic.camera_from_lidar.transform.translation.x() += 0.25;
+  actions_.follow(modelled, {Missing::kNothing, true});
+  EXPECT_TRUE(text().contains("Range walk")) << text().toStdString();
+  const auto matrix = [&] {
+    return test::find<QPlainTextEdit>(*dialog, "matrix")->toPlainText().toStdString();
+  };
+  EXPECT_EQ(matrix(), matrix_text(*modelled).toStdString());
+  auto* formats = test::find<QListWidget>(*dialog, "formats");
+  formats->setCurrentItem(formats->findItems("urdf", Qt::MatchExactly).value(0));
+  const auto preview = [&] {
+    return test::find<QPlainTextEdit>(*dialog, "preview")->toPlainText();
+  };
+  EXPECT_TRUE(preview().contains("taken out: Range walk")) << preview().toStdString();
+  actions_.set_frames({"lidar", "camera"});
+  actions_.follow(base, {Missing::kNothing, true});
+  EXPECT_TRUE(text().contains("Range walk"));
 }
 
 }  // namespace

@@ -32,19 +32,19 @@ TEST(StatusLine, SaysWhenTheQualityIsOfOlderDecisions) {
   StatusLine line;
   line.show();
   auto* quality = line.findChild<QLabel*>("quality");
-  line.show_quality(nullptr, false, Missing::kNothing);
+  line.show_quality(nullptr, {Missing::kNothing, false});
   EXPECT_FALSE(quality->isVisible());
   auto result = std::make_shared<CalibrationResult>();
   result->quality = Quality::kGood;
-  line.show_quality(result, true, Missing::kNothing);
+  line.show_quality(result, {Missing::kNothing, true});
   EXPECT_EQ(quality->text(), "Base model: good");
   auto modelled = std::make_shared<CalibrationResult>(*result);
   modelled->model = {{"range_walk", {{"a", "mm", 1e-3, 0.01, 0.001}}}};
   modelled->model_scales.darkness_high = 1.0;
-  line.show_quality(modelled, true, Missing::kNothing);
+  line.show_quality(modelled, {Missing::kNothing, true});
   EXPECT_EQ(quality->text(), "Base model + Range walk: good");
   EXPECT_TRUE(quality->toolTip().contains("taken out: Range walk"));
-  line.show_quality(result, false, Missing::kNothing);
+  line.show_quality(result, {Missing::kNothing, false});
   EXPECT_TRUE(quality->text().contains("out of date"));
 }
 
@@ -58,21 +58,21 @@ TEST(StatusLine, GoodIsWhatMissesNothing) {
   const auto wanted = [](Mark m) { return mark_icon(m, qApp->palette()).pixmap(16, 16).toImage(); };
   auto result = std::make_shared<CalibrationResult>();
   result->quality = Quality::kGood;
-  line.show_quality(result, true, Missing::kSought);
+  line.show_quality(result, {Missing::kSought, true});
   EXPECT_EQ(quality->text(), "Base model: good so far; still looking for what is missing");
   EXPECT_EQ(image(), wanted(Mark::kIdle));
-  line.show_quality(result, true, Missing::kNotSought);
+  line.show_quality(result, {Missing::kNotSought, true});
   EXPECT_TRUE(quality->text().contains("nobody has looked")) << quality->text().toStdString();
   EXPECT_EQ(image(), wanted(Mark::kIdle));
-  line.show_quality(result, true, Missing::kSomething);
+  line.show_quality(result, {Missing::kSomething, true});
   EXPECT_EQ(quality->text(), "Base model: doubtful");
   EXPECT_EQ(image(), wanted(Mark::kDoubtful));
-  line.show_quality(result, true, Missing::kNothing);
+  line.show_quality(result, {Missing::kNothing, true});
   EXPECT_EQ(quality->text(), "Base model: good");
   EXPECT_EQ(image(), wanted(Mark::kGood));
   // What is bad already does not wait for more.
   result->quality = Quality::kFailed;
-  line.show_quality(result, true, Missing::kSought);
+  line.show_quality(result, {Missing::kSought, true});
   EXPECT_EQ(quality->text(), "Base model: failed");
   EXPECT_EQ(image(), wanted(Mark::kBad));
 }
@@ -84,13 +84,13 @@ TEST(StatusLine, ALongerVerdictIsWholeAtOnce) {
   line.show();
   auto result = std::make_shared<CalibrationResult>();
   result->quality = Quality::kGood;
-  line.show_quality(result, true, Missing::kNothing);
+  line.show_quality(result, {Missing::kNothing, true});
   QCoreApplication::processEvents();
   auto* quality = line.findChild<QLabel*>("quality");
   const int before = quality->width();
   result->model = {{"range_walk", {{"a", "mm", 1e-3, 0.01, 0.001}}}};
   result->model_scales.darkness_high = 1.0;
-  line.show_quality(result, true, Missing::kNothing);
+  line.show_quality(result, {Missing::kNothing, true});
   EXPECT_GT(quality->sizeHint().width(), before);
   EXPECT_GE(quality->width(), quality->sizeHint().width());
 }
@@ -100,7 +100,7 @@ TEST(StatusLine, ItsMarkFollowsTheTheme) {
   line.show();
   auto result = std::make_shared<CalibrationResult>();
   result->quality = Quality::kDoubtful;
-  line.show_quality(result, true, Missing::kNothing);
+  line.show_quality(result, {Missing::kNothing, true});
   auto* mark = line.findChild<QLabel*>("quality_mark");
   for (const Theme theme : {Theme::kDark, Theme::kLight}) {
     apply_theme(*qApp, theme);
