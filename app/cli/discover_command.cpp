@@ -32,8 +32,11 @@ std::string summary_of(const Discovery& discovery, Quality before, const Calibra
   const PoseUse use = pose_use(final);
   std::vector<std::string> missing = discovery.selected;
   if (!discovery.lacking().empty()) missing.push_back(discovery.lacking() + " (not added)");
+  // What speaks against the result may be an effect that was not found.
+  const std::string nothing = final.quality == Quality::kGood ? "nothing is missing in the model"
+                                                              : "no effect is found to be missing";
   std::string text = !missing.empty()            ? "missing: " + joined(missing, ", ")
-                     : discovery.unknown.empty() ? "nothing is missing in the model"
+                     : discovery.unknown.empty() ? nothing
                      : final.unexplained.empty()
                          ? "nothing that matters is missing, though structure is left that no "
                            "known effect explains"

@@ -202,12 +202,8 @@ std::string discovery_summary(const Discovery& d) {
     out += "Missing, and not added: " + lacking + " (below).\n";
   } else if (d.selected.empty()) {
     const std::string further = d.model.empty() ? "" : "further ";
-    out +=
-        d.unknown.empty()
-            ? "Nothing " + further +
-                  "is missing: no effect of the catalogue predicts held-out scenes better.\n"
-            : "No effect of the catalogue predicts held-out scenes better, but structure is left "
-              "(below).\n";
+    out += "No " + further + "effect of the catalogue predicts held-out scenes better";
+    out += d.unknown.empty() ? ".\n" : ", but structure is left (below).\n";
   }
   for (const EffectFinding& f : d.effects) {
     if (d.holds(f.id)) out += f.id + ": " + f.explanation.text() + "\n";
