@@ -12,6 +12,7 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -510,8 +511,11 @@ bool RefinementPage::isByHand(int circle) const {
 }
 
 // Without their returns the refinement finds such bins as empty as those that the LiDAR missed.
+// With fewer returns it divides the circle into fewer bins: one that reaches into what was left out
+// may keep too few of its own.
 std::vector<bool> RefinementPage::binsByHand(const NodeRecord& record) const {
   std::vector<bool> out(record.bins.size(), false);
+  constexpr std::array kWithin{0.1, 0.5, 0.9};  // Where along a bin is asked.
   SceneEdits edits = shown_edits_;
   edits.points_m.clear();
   if (edits.empty() || !target_.has_circles()) return out;
@@ -522,16 +526,18 @@ std::vector<bool> RefinementPage::binsByHand(const NodeRecord& record) const {
   Cloud edge;
   for (const TargetNode& node : target_.nodes()) {
     if (node.id != record.id) continue;
-    for (std::size_t k = 0; k < out.size(); ++k) {
-      const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(out.size());
-      const double angle = (2.0 * share - 1.0) * std::numbers::pi;
+    for (std::size_t k = 0; k < out.size() * kWithin.size(); ++k) {
+      const double bin = static_cast<double>(k / kWithin.size()) + kWithin[k % kWithin.size()];
+      const double angle = (2.0 * bin / static_cast<double>(out.size()) - 1.0) * std::numbers::pi;
       const Eigen::Vector2d p =
           node.center_m + radius_m * Eigen::Vector2d(std::cos(angle), std::sin(angle));
       edge.points_m.emplace_back(Eigen::Vector3d(p.x(), p.y(), 1.0).cast<float>());
     }
   }
-  for (const std::uint32_t k : left_out_points(edge, edits, target_, front))
-    out[k] = record.bins[k].state != BinState::kUsed;
+  for (const std::uint32_t k : left_out_points(edge, edits, target_, front)) {
+    const std::size_t bin = k / kWithin.size();
+    out[bin] = record.bins[bin].state != BinState::kUsed;
+  }
   return out;
 }
 

@@ -224,6 +224,31 @@ TEST_F(RefinementPageTest, BinsLeftOutByHandAreNotCalledRefused) {
   EXPECT_EQ(red, 1);
 }
 
+// A circle that has lost returns is divided into fewer bins. One that reaches into what was left
+// out and has too few returns of its own lacks them for that.
+TEST_F(RefinementPageTest, ABinThatIsLeftOutInPartIsNotCalledRefused) {
+  auto changed = std::make_shared<CalibrationResult>(*demo_.result);
+  SceneResult& scene = changed->scenes[0];
+  NodeRecord& node = scene.refinement->history.back().nodes[2];
+  const double width_rad = 2.0 * std::numbers::pi / static_cast<double>(node.bins.size());
+  scene.edits.patches_m.push_back(ring_patch(changed->target, node.id,
+                                             -std::numbers::pi + 2.0 * width_rad,
+                                             -std::numbers::pi + 4.3 * width_rad));
+  for (const int bin : {2, 3, 4, 5})
+    node.bins[static_cast<std::size_t>(bin)].state = BinState::kTooFewSamples;
+  page_.setResult(changed);
+  page_.setScene(0);
+  page_.chooseNode(node.id);
+  std::vector<bool> by_hand(node.bins.size(), false);
+  by_hand[2] = by_hand[3] = by_hand[4] = true;
+  EXPECT_EQ(page_.findChild<AngleDistancePlot*>("large-plot")->data().by_hand, by_hand);
+  // One that has enough all the same is in use.
+  node.bins[4].state = BinState::kUsed;
+  by_hand[4] = false;
+  page_.setResult(std::make_shared<CalibrationResult>(*changed));
+  EXPECT_EQ(page_.findChild<AngleDistancePlot*>("large-plot")->data().by_hand, by_hand);
+}
+
 // As a run leaves it: without its returns the circle cannot be used either.
 TEST_F(RefinementPageTest, ACircleLeftOutByHandIsNotCalledUnusable) {
   auto changed = std::make_shared<CalibrationResult>(*demo_.result);
