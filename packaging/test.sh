@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what is missing, builds a release and runs every test.
-# Arguments go to ctest, e.g. packaging/test.sh -R Cloud
+# Arguments go to ctest, e.g. packaging/test.sh -R cloud
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
