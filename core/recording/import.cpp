@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <system_error>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,7 @@
 #include "base/text.h"
 #include "cloud/about_cloud.h"
 #include "cloud/cloud.h"
+#include "recording/guessed_board.h"
 #include "recording/messages.h"
 #include "recording/pixels.h"
 #include "recording/survey.h"
@@ -186,25 +188,6 @@ Error nothing_usable(const Recording& recording, const ImportSummary& summary) {
       where);
 }
 
-// Where some scenes show the guessed board it was guessed well, and the others do not show it.
-void judge_guessed_board(const fs::path& folder, ImportSummary& out) {
-  const auto shows = [](const ImportedStretch& s) { return s.taken && s.board_complaint.empty(); };
-  if (std::none_of(out.stretches.begin(), out.stretches.end(), shows)) {
-    out.warnings.push_back(
-        Message("no scene shows the default board, which target.yaml describes; put the "
-                "description of yours in its place, or import with --target"));
-    return;
-  }
-  for (ImportedStretch& s : out.stretches) {
-    if (!s.taken || s.board_complaint.empty()) continue;
-    std::error_code code;
-    fs::remove_all(folder / "scenes" / s.scene, code);
-    s.taken = false;
-    s.scene.clear();
-    s.reason = s.board_complaint;
-  }
-}
-
 std::string scene_name(std::size_t number) {
   return formatted("%03.0f", static_cast<double>(number));
 }
@@ -261,7 +244,9 @@ Result<ImportSummary> import_into(UnfinishedFolder& folder, const Recording& rec
   out.has_camera = camera.has_value();
   if (Status s = write_scenes(recording, survey, options, folder.path(), context, out); !s)
     return s.error();
-  judge_guessed_board(folder.path(), out);
+  judge_guessed_board<ImportedStretch>(
+      folder.path(), out.stretches, [](auto& s) { return std::exchange(s.scene, {}); },
+      out.warnings);
   for (const ImportedStretch& stretch : out.stretches) {
     for (const Message& warning : stretch.cloud_warnings) {
       if (stretch.taken) out.warnings.push_back(about_cloud(stretch.scene, warning));

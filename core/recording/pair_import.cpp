@@ -13,6 +13,7 @@
 #include "cloud/about_cloud.h"
 #include "cloud/cloud.h"
 #include "cloud/kitti_points.h"
+#include "recording/guessed_board.h"
 #include "recording/import.h"
 #include "recording/messages.h"
 #include "recording/recording.h"
@@ -158,24 +159,6 @@ Status write_scene(const PairImportOptions& options, const std::optional<Camera>
   return Done{};
 }
 
-// Where some scenes show the guessed board it was guessed well, and the others do not show it.
-void judge_guessed_board(const fs::path& folder, PairImportSummary& out) {
-  const auto shows = [](const ImportedPair& p) { return p.taken && p.board_complaint.empty(); };
-  if (std::none_of(out.pairs.begin(), out.pairs.end(), shows)) {
-    out.warnings.push_back(
-        Message("no scene shows the default board, which target.yaml describes; put the "
-                "description of yours in its place, or import with --target"));
-    return;
-  }
-  for (ImportedPair& pair : out.pairs) {
-    if (!pair.taken || pair.board_complaint.empty()) continue;
-    std::error_code code;
-    fs::remove_all(folder / "scenes" / pair.files.name, code);
-    pair.taken = false;
-    pair.reason = pair.board_complaint;
-  }
-}
-
 void tell_of_clouds(PairImportSummary& out) {
   for (const ImportedPair& pair : out.pairs) {
     for (const Message& warning : pair.cloud_warnings) {
@@ -304,7 +287,8 @@ Result<PairImportSummary> import_pairs(const PairedFiles& files, const PairImpor
                         first.files.image.parent_path().string());
   }
   if (camera && options.board_check && !options.board_is_certain)
-    judge_guessed_board(folder->path(), out);
+    judge_guessed_board<ImportedPair>(
+        folder->path(), out.pairs, [](const auto& p) { return p.files.name; }, out.warnings);
   tell_of_clouds(out);
   std::vector<std::pair<std::string, std::string>> texts = {
       {"target.yaml", options.target_yaml}, {"import.json", import_json(files, out)}};
