@@ -184,9 +184,11 @@ void BudgetPlot::drawChannel(const ChannelSummary& base, int first) {
       rect->setBrush(color);
       rect->setPen(Qt::NoPen);
     };
-    const double top = std::max(base.unexplained, error.unexplained);
+    const bool by_chance = beyond_noise(base).is_chance();
+    const double top =
+        by_chance ? error.unexplained : std::max(base.unexplained, error.unexplained);
     bar(0.0, error.unexplained, is_wrong(*now, k) ? colors().refused : noiseColor(colors()));
-    if (!beyond_noise(base).is_chance()) bar(error.unexplained, top, explainedColor(colors()));
+    if (!by_chance) bar(error.unexplained, top, explainedColor(colors()));
     if (k == current_) frameStep(x, top / scale);
     held_x.push_back(x);
     held_y.push_back(std::min(error.heldout / scale, kTop));
@@ -209,7 +211,14 @@ void BudgetPlot::writeFigures(const ChannelSummary& base, double middle) {
   };
   QString text = figure(base);
   const QString then = now != nullptr && current_ > 0 ? figure(*now) : text;
-  if (then != text) text += QStringLiteral(" → ") + then;
+  // What noise may leave before and after is no change.
+  const bool by_chance =
+      now != nullptr && beyond_noise(base).is_chance() && beyond_noise(*now).is_chance();
+  if (by_chance) {
+    text = then;
+  } else if (then != text) {
+    text += QStringLiteral(" → ") + then;
+  }
   if (base.channel != Channel::kIntensity) text += QStringLiteral(" ") + unit_text(base.channel);
   const bool wrong = is_wrong(now != nullptr ? *now : base, current_);
   writeFigure(middle, text, wrong ? colors().refused : colors().text);

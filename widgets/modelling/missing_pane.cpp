@@ -180,7 +180,7 @@ MissingPane::MissingPane(QWidget* parent)
   layout->addWidget(verdict_);
   layout->addWidget(parts_, 1);
   layout->addLayout(buttons);
-  connect(list_, &QTreeWidget::currentItemChanged, this, &MissingPane::describe);
+  connect(list_, &QTreeWidget::currentItemChanged, this, [this] { describe(true); });
   connect(list_, &QTreeWidget::itemDoubleClicked, this, &MissingPane::add);
   connect(add_, &QPushButton::clicked, this, &MissingPane::add);
   connect(all_, &QPushButton::clicked, this, &MissingPane::findAllWanted);
@@ -419,7 +419,7 @@ void MissingPane::resizeEvent(QResizeEvent* event) {
   QTimer::singleShot(0, this, [this] { shareHeight(); });  // The layout takes its turn first.
 }
 
-void MissingPane::describe() {
+void MissingPane::describe(bool by_user) {
   updateVerdict();
   const EffectProposal* p = current();
   const QTreeWidgetItem* item = list_->currentItem();
@@ -448,7 +448,7 @@ void MissingPane::describe() {
     html += criteria_html(*p);
     text_->setHtml(html);
     pattern_->setFigure(nullptr, tr("its pattern is being drawn …"));
-    Q_EMIT chosen();
+    Q_EMIT chosen(by_user);
   } else if (unknown != nullptr) {
     describeStructure(*unknown);
   } else {

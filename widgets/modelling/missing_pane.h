@@ -47,8 +47,8 @@ class MissingPane : public QWidget {
   void findAllWanted();
   void lookWanted();
   void cancelWanted();
-  /// Another proposal was chosen.
-  void chosen();
+  /// Another proposal was chosen: by the user, or as the first of a list that is new.
+  void chosen(bool by_user);
   /// Structure that no effect explains was chosen.
   void structureChosen(lvcalib::Channel channel, const QString& covariate);
   void curveWanted(lvcalib::Channel channel, const QString& covariate, const QString& second);
@@ -66,7 +66,7 @@ class MissingPane : public QWidget {
   void addFrom(const QUrl& spec);
   void addProposal(const EffectProposal& proposal, int index);
   void addUnknown(int index);
-  void describe();
+  void describe(bool by_user = false);
   void updateVerdict();
   void describeStructure(const StructureScore& structure);
   void shareHeight();

@@ -232,8 +232,10 @@ void ModelPage::takeRanking() {
   missing_->setRanking(work_.ranking(), work_.step() != nullptr, work_.busy());
 }
 
-// Draws the chosen effect's pattern at its estimate, and shows where it is.
-void ModelPage::takeChosen() {
+// Draws the chosen effect's pattern at its estimate, and shows where it is. Nobody asked for one
+// that is not suggested and only comes first: who has just added an effect watches its own curve
+// fall.
+void ModelPage::takeChosen(bool by_user) {
   const EffectProposal* p = missing_->current();
   const EffectPtr effect = p == nullptr ? nullptr : find_effect(p->finding.id);
   if (!effect || p->finding.parameters.empty() || !shown_) {
@@ -247,7 +249,7 @@ void ModelPage::takeChosen() {
     use.values(static_cast<Eigen::Index>(k)) = p->finding.parameters[k].value;
   where_->setOverlay(use);
   pattern_is_proposal_ = true;
-  follow_pattern_ = true;
+  follow_pattern_ = by_user || p->suggested;
   source_.requestPattern(use);
 }
 

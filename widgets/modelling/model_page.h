@@ -64,7 +64,7 @@ class ModelPage : public QWidget {
   void retranslate();
   void takeSteps();
   void takeRanking();
-  void takeChosen();
+  void takeChosen(bool by_user);
   void describeSteps();
   void openDialog(const QString& covariate, std::optional<Channel> channel,
                   const QString& second = {});

@@ -98,6 +98,34 @@ TEST(BudgetPlotTest, NoFigureLeavesThePicture) {
   }
 }
 
+// What noise alone may leave, before and after, is no fall; and no frame stands about nothing.
+TEST(BudgetPlotTest, WithinNoiseNothingChanges) {
+  auto base = std::make_shared<ModelStep>(*test::model_example().base);
+  auto next = std::make_shared<ModelStep>(*base);
+  ASSERT_FALSE(base->channels.empty());
+  base->channels.resize(1);
+  next->channels.resize(1);
+  ChannelSummary& before = base->channels.front();
+  before.n = 10'000;
+  before.noise_floor = 2.0;
+  before.unexplained = 0.2;
+  ASSERT_TRUE(BudgetPlot::beyond_noise(before).is_chance());
+  next->channels.front() = before;
+  next->channels.front().n = 2'500;
+  next->channels.front().unexplained = 0.0;
+  BudgetPlot plot;
+  plot.setSteps({base, next}, 1);
+  double highest = 0.0;
+  for (int k = 0; k < plot.itemCount(); ++k) {
+    if (const auto* text = qobject_cast<QCPItemText*>(plot.item(k)))
+      EXPECT_FALSE(text->text().contains(QChar(u'→'))) << text->text().toStdString();
+    const auto* frame = qobject_cast<QCPItemRect*>(plot.item(k));
+    if (frame != nullptr && frame->pen() != Qt::NoPen)
+      highest = std::max(highest, frame->topLeft->coords().y());
+  }
+  EXPECT_LE(highest, 0.05);
+}
+
 TEST(BudgetPlotTest, TheDistanceToTheTruthStandsBesideTheHistory) {
   const auto& example = test::model_example();
   BudgetPlot plot;

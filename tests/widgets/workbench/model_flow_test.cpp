@@ -133,11 +133,18 @@ TEST_F(Flow, TheDemosHiddenEffectIsFoundAddedTakenBackAndExported) {
   // Its pattern is drawn over what is measured.
   auto* plot = test::find<ResidualPlot>(window_, "residual_plot");
   EXPECT_TRUE(test::wait_until([&] { return plot->figure() != nullptr; }));
+  QTest::qWait(500);  // It turns to where the pattern is.
+  const std::string along = plot->figure()->along().name;
   const double before = unexplained(Channel::kRange);
   QTest::mouseClick(test::find<QPushButton>(window_, "add_proposal"), Qt::LeftButton);
   ASSERT_TRUE(test::wait_until([&] { return work().current() == 1; }));
   ASSERT_TRUE(wait_idle());
   EXPECT_LT(unexplained(Channel::kRange), 0.45 * before);
+  // Its own curve, which was looked at before, is seen to fall.
+  QTest::qWait(500);
+  ASSERT_NE(plot->figure(), nullptr);
+  EXPECT_EQ(plot->figure()->view->columns.channel, Channel::kRange);
+  EXPECT_EQ(plot->figure()->along().name, along);
   // The four channels, and the distance to the demo's truth in mm and in mrad.
   EXPECT_EQ(test::find<BudgetPlot>(window_, "budget_plot")->csv().count("\n1,"), 4 + 2);
   // The export holds the effect.
