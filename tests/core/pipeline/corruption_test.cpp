@@ -52,6 +52,9 @@ int run_kinds(const std::vector<std::string>& starts,
     EXPECT_TRUE(out.diagnosed || unnamed)
         << corruption.name << ": " << out.quality << ": " << out.said;
     EXPECT_FALSE(out.absurd) << corruption.name << ": " << out.said;
+    if (corruption.family == CorruptionFamily::kPlanted) {
+      EXPECT_EQ(out.quality, "doubtful") << corruption.name << ": " << out.said;
+    }
     const bool harmless =
         corruption.name == "clean" || corruption.name.ends_with("cloud without the board");
     if (harmless) {
@@ -104,6 +107,12 @@ TEST(Corruption, ACloudWithoutTheBoardDoubtsNothingElse) {
 
 TEST(Corruption, OfTheRigIsNeverGood) {
   EXPECT_GE(run_kinds({"rig bumped by 20 mm before the last scene"}), 1);
+}
+
+// What moves or trails while a scan is taken bends every scene alike, so that no scene contradicts
+// another.
+TEST(Corruption, OfTheScansIsNeverGood) {
+  EXPECT_EQ(run_kinds({"scan_motion=20", "encoder_lag=5", "detector_lag=5"}), 3);
 }
 
 }  // namespace
