@@ -275,6 +275,23 @@ TEST_F(DiscoverCommand, WhatIsMissingAndNotAddedIsSaid) {
   EXPECT_EQ(discovery["covariance"], result["covariance"]);
 }
 
+// Dark print reads far in one scene alone, which no effect of all scenes is: what the calibration
+// says is missing is not denied by the search.
+TEST_F(DiscoverCommand, NothingIsMissingIsNotSaidBesideADoubtThatSomethingIs) {
+  int seen = 0;
+  const fs::path walked = with_clouds([&](Cloud& cloud) {
+    if (seen++ != 1) return;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      if (cloud.intensity[i] < 60.0F) cloud.points_m[i] += 0.012F * cloud.points_m[i].normalized();
+    }
+  });
+  const Outcome outcome = discover(walked);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("an effect is missing in the model"));
+  EXPECT_THAT(outcome.out, HasSubstr("no effect is found to be missing; doubtful"));
+  EXPECT_THAT(read_file(out() / "discovery.txt"), Not(HasSubstr("Nothing is missing")));
+}
+
 TEST_F(DiscoverCommand, ACloudMayLackTheLineThatTheOthersHave) {
   int seen = 0;
   const fs::path dataset = with_clouds([&](Cloud& cloud) {
