@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kMostSelected = 3000;
 constexpr double kSigmas = 2.0;
+constexpr double kBeyond = 1e30;  // Of all residuals.
 
 }  // namespace
 
@@ -83,8 +84,14 @@ void ResidualPlot::emitBrush(const QRect& rect) {
   const QRect r = rect.normalized();
   const double x0 = xAxis->pixelToCoord(r.left());
   const double x1 = xAxis->pixelToCoord(r.right());
-  const double y0 = yAxis->pixelToCoord(r.bottom());
-  const double y1 = yAxis->pixelToCoord(r.top());
+  double y0 = yAxis->pixelToCoord(r.bottom());
+  double y1 = yAxis->pixelToCoord(r.top());
+  // A few residuals lie beyond what is drawn. Who brushes a stretch from edge to edge means them,
+  // too: left alone there they would be all that speaks for the stretch.
+  const QRect drawn = axisRect()->rect();
+  const auto whole = yAxis->range();
+  if (figure_ && r.bottom() >= drawn.bottom() && whole.lower <= figure_->y_low) y0 = -kBeyond;
+  if (figure_ && r.top() <= drawn.top() && whole.upper >= figure_->y_high) y1 = kBeyond;
   Q_EMIT brushed(QRectF(QPointF(x0, y0), QPointF(x1, y1)));
 }
 

@@ -104,6 +104,36 @@ TEST(ResidualPlotTest, BrushingGivesTheAreaInAxisUnits) {
   EXPECT_NEAR(area.bottom(), 10.0, 0.8);
 }
 
+// A few residuals lie beyond what is drawn: they are of the stretch that is brushed from edge to
+// edge.
+TEST(ResidualPlotTest, BrushingFromEdgeToEdgeTakesWhatLiesBeyond) {
+  ResidualPlot plot;
+  plot.resize(500, 300);
+  plot.setFigure(figure("range"));
+  plot.show();
+  plot.replot();
+  plot.setBrushing(true);
+  QSignalSpy brushed(&plot, &ResidualPlot::brushed);
+  const QRect drawn = plot.axisRect()->rect();
+  const auto brush = [&](const QPoint& from, const QPoint& to) {
+    QTest::mousePress(&plot, Qt::LeftButton, {}, from);
+    QTest::mouseMove(&plot, (from + to) / 2);
+    QTest::mouseMove(&plot, to);
+    QTest::mouseRelease(&plot, Qt::LeftButton, {}, to);
+    return brushed.last().at(0).toRectF();
+  };
+  const int x = drawn.center().x();
+  const QRectF all = brush({x, drawn.top() + 1}, {x + 20, drawn.bottom() + 5});
+  EXPECT_LT(all.top(), -1e9);
+  EXPECT_LT(all.bottom(), 1e3) << "the upper edge was not reached";
+  const QRectF up = brush({x, drawn.center().y()}, {x + 20, drawn.top() - 5});
+  EXPECT_GT(up.bottom(), 1e9);
+  // Of a part that is looked at closely the rest is out of sight, and not meant.
+  plot.yAxis->setRange(-1.0, 1.0);
+  plot.replot();
+  EXPECT_LT(brush({x, drawn.center().y()}, {x + 20, drawn.top() - 5}).bottom(), 1e3);
+}
+
 TEST(ResidualPlotTest, SelectedResidualsAreDrawnAndForgottenWithTheirFigure) {
   ResidualPlot plot;
   plot.setFigure(figure("range"));
