@@ -105,6 +105,7 @@ std::shared_ptr<const Discovery> ModelWork::discovery() const {
 
 void ModelWork::take_workspace() {
   search_with_.clear();
+  told_.clear();
   place_ = {workspace_.model(), workspace_.model().size()};
   forget();
 }
@@ -250,9 +251,10 @@ void ModelWork::run(Place goal, const DescribedCommand::Words& words) {
                       : apply_decision(steps.back(), wanted[k - 1], context);
       if (!next && words.source == nullptr && k > 0 && next.error().kind != ErrorKind::kCancelled) {
         // Decided elsewhere, as by another version: said, kept as it is, and the rest goes on.
-        post([this, error = next.error()] {
+        post([this, error = next.error(), key = key_of({wanted[k - 1]})] {
           Q_EMIT logged(core_text(error));
-          Q_EMIT failed(error);
+          // Every calibration asks for it again; whoever opened the project has read it.
+          if (told_.insert(key).second) Q_EMIT failed(error);
         });
         auto carried = std::make_shared<ModelStep>(*steps.back());
         carried->change = wanted[k - 1].change;

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -130,6 +131,7 @@ class ModelWork : public QObject {
   Place place_;
   bool looking_ = false;  // What runs is only the search for what is missing.
   bool pushing_ = false;  // A change of its own arrives, not the user's undo or redo.
+  std::set<Key> told_;    // Decisions of what is open that cannot be made.
   // The next calibration, with these refused scenes in use, is searched to the end.
   QStringList search_with_;
   Runner results_;  // Makes the calibration with the model.

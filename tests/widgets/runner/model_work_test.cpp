@@ -329,6 +329,14 @@ TEST_F(Work, AnEffectThatThisVersionLacksIsCarried) {
   EXPECT_TRUE(specs().empty());
   workspace_->undo_stack().undo();
   EXPECT_THAT(specs(), ElementsAre("range_walk"));
+  ASSERT_TRUE(idle());
+  // Another calibration asks for it again, which is no news.
+  const auto before = workspace_->result();
+  workspace_->run_again({QStringLiteral("A")});
+  ASSERT_TRUE(
+      QTest::qWaitFor([&] { return workspace_->result() != before && !work_->busy(); }, 240'000));
+  EXPECT_THAT(specs(), ElementsAre("range_walk"));
+  EXPECT_EQ(said.size(), 1);
 }
 
 TEST_F(Work, CancellingLeavesTheModelAsItWas) {
