@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/text.h"
+#include "cloud/intensity_lag.h"
 #include "pipeline/forward_stage.h"
 #include "pipeline/scene_loading.h"
 
@@ -16,14 +17,41 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CloudReading {
-  Message what;  // Completes "the clouds are …".
-  Eigen::Vector3f by;
+  Message what;  // Completes "the board is found if …".
+  Message advice;
+  Eigen::Vector3f by = Eigen::Vector3f::Ones();
+  int intensity_lag = 0;
 };
 
-Cloud read_as(const Cloud& cloud, const Eigen::Vector3f& by) {
+Cloud read_as(const Cloud& cloud, const CloudReading& reading) {
+  if (reading.intensity_lag != 0) return without_intensity_lag(cloud, reading.intensity_lag);
   Cloud out = cloud;
-  for (Eigen::Vector3f& p : out.points_m) p = p.cwiseProduct(by);
+  for (Eigen::Vector3f& p : out.points_m) p = p.cwiseProduct(reading.by);
   return out;
+}
+
+CloudReading mirrored() {
+  // Mirrored along one axis is mirrored along any: the search does not care how a cloud is turned.
+  return {Message("the clouds are mirrored (their axes make a left-handed frame)"),
+          Message("exchange two axes, or the sign of one, in what writes the clouds"),
+          Eigen::Vector3f(1.0F, -1.0F, 1.0F)};
+}
+
+// Points and intensities that do not belong together, if there is a shift that the clouds suggest.
+std::optional<CloudReading> shifted_intensities(const std::vector<Cloud>& clouds) {
+  for (const Cloud& cloud : clouds) {
+    const int lag = intensity_lag(cloud);
+    if (lag == 0) continue;
+    const int count = std::abs(lag);
+    CloudReading reading;
+    reading.what =
+        lag > 0 ? Message("each intensity belongs to the point that stands %1 before it", count)
+                : Message("each intensity belongs to the point that stands %1 after it", count);
+    reading.advice = Message("write every intensity with its own point");
+    reading.intensity_lag = lag;
+    return reading;
+  }
+  return std::nullopt;
 }
 
 double middle_distance_m(const BoardView& view, const Target& target) {
@@ -53,11 +81,12 @@ std::vector<LengthUnit> other_length_units() {
 std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRequest& request,
                                      const CalibrationResult& result, const RunContext& context) {
   std::vector<CloudReading> readings;
-  for (const LengthUnit& unit : other_length_units())
-    readings.push_back({unit.what, Eigen::Vector3f::Constant(static_cast<float>(unit.in_m))});
-  // Mirrored along one axis is mirrored along any: the search does not care how a cloud is turned.
-  readings.push_back({Message("mirrored (its axes make a left-handed frame)"),
-                      Eigen::Vector3f(1.0F, -1.0F, 1.0F)});
+  for (const LengthUnit& unit : other_length_units()) {
+    readings.push_back({Message("the clouds are %1", unit.what),
+                        Message("write the clouds in metres"),
+                        Eigen::Vector3f::Constant(static_cast<float>(unit.in_m))});
+  }
+  readings.push_back(mirrored());
   // Something may look like the board by chance, but hardly twice in the same place of the rig.
   constexpr std::size_t kMostScenes = 3;  // Two that agree, and one that may show nothing.
   std::vector<std::size_t> seen;
@@ -69,6 +98,7 @@ std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRe
     seen.push_back(s);
     clouds.push_back(std::move(*cloud));
   }
+  if (auto shifted = shifted_intensities(clouds)) readings.push_back(std::move(*shifted));
   const PatternPyramid pyramid(dataset.target);
   RunContext quiet = context.silent();
   quiet.threads = 1;
@@ -77,7 +107,7 @@ std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRe
     if (context.stopped()) return;
     const BoardView& view = *result.scenes[seen[k]].view;
     found[reading * seen.size() + k] =
-        search_board(read_as(clouds[k], readings[reading].by),
+        search_board(read_as(clouds[k], readings[reading]),
                      {dataset.target, pyramid, middle_distance_m(view, dataset.target)},
                      request.options.localization, quiet)
             .candidates;
@@ -106,10 +136,8 @@ std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRe
   if (context.stopped() || most < std::min<int>(2, static_cast<int>(seen.size())) || most == 0)
     return std::nullopt;
   return Error::untrusted(
-      Message("the board is not found in any cloud, but it is if the clouds are %1",
-              readings[best].what),
-      dataset.scenes[seen.front()].cloud.string(),
-      Message("write the clouds in metres, in a right-handed frame"));
+      Message("the board is not found in any cloud, but it is if %1", readings[best].what),
+      dataset.scenes[seen.front()].cloud.string(), readings[best].advice);
 }
 
 std::optional<std::pair<std::size_t, std::size_t>> exchanged_images(
@@ -205,6 +233,7 @@ std::optional<Error> diagnose_mirrored(const Dataset& dataset, const Calibration
                                        std::vector<SceneHypotheses> scenes, int agreeing,
                                        const RunContext& context) {
   const PatternPyramid pyramid(dataset.target);
+  const CloudReading reading = mirrored();
   parallel_for(scenes.size(), context.thread_count(), [&](std::size_t s) {
     scenes[s].candidates.clear();
     if (!result.scenes[s].view || context.stopped()) return;
@@ -212,7 +241,7 @@ std::optional<Error> diagnose_mirrored(const Dataset& dataset, const Calibration
     if (!cloud) return;
     RunContext quiet = context.silent();
     quiet.threads = 1;
-    scenes[s].candidates = search_board(read_as(*cloud, {1.0F, -1.0F, 1.0F}),
+    scenes[s].candidates = search_board(read_as(*cloud, reading),
                                         {dataset.target, pyramid,
                                          middle_distance_m(*result.scenes[s].view, dataset.target)},
                                         request.options.localization, quiet)
@@ -222,12 +251,9 @@ std::optional<Error> diagnose_mirrored(const Dataset& dataset, const Calibration
   if (context.stopped() || !consensus) return std::nullopt;
   if (consensus->agreeing < std::max(fewest_agreeing(scenes, *consensus), agreeing + 1))
     return std::nullopt;
-  return Error::untrusted(
-      Message("the scenes do not agree, but %1 of them do if the clouds are mirrored (their axes "
-              "make a left-handed frame)",
-              consensus->agreeing),
-      dataset.path.string(),
-      Message("exchange two axes, or the sign of one, in what writes the clouds"));
+  return Error::untrusted(Message("the scenes do not agree, but %1 of them do if %2",
+                                  consensus->agreeing, reading.what),
+                          dataset.path.string(), reading.advice);
 }
 
 Message diagnose_guess(const Rigid3& guess, const Rigid3& found) {

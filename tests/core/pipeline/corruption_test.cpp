@@ -72,9 +72,10 @@ TEST(Corruption, OfTheIntrinsicsIsNeverGood) {
 }
 
 TEST(Corruption, OfTheCloudsIsNeverGood) {
-  EXPECT_GE(run_kinds({"intensity saturated at 20", "no points but five", "cloud in",
-                       "cloud mirrored", "all clouds", "coordinates in steps of 20"}),
-            9);
+  EXPECT_GE(
+      run_kinds({"intensity saturated at 20", "no points but five", "cloud in", "cloud mirrored",
+                 "all clouds", "coordinates in steps of 20", "intensities late"}),
+      10);
 }
 
 TEST(Corruption, OfTheImagesIsNeverGood) {
