@@ -5233,6 +5233,14 @@ were saved. Take them up again?</source>
         <source>No effect of the catalogue explains what the %1 channel does over %2 (%3 % of its held-out variance, %4).</source>
         <translation>目录中没有效应能解释%1通道随 %2 的变化（占其留出方差的 %3 %，%4）。</translation>
     </message>
+    <message>
+        <source>tags of family %1 with a %2 found; the target is a checkerboard</source>
+        <translation>找到的是标签族 %1、%2的标签；而标定板是棋盘格</translation>
+    </message>
+    <message>
+        <source>markers of %1 found; the target is a checkerboard</source>
+        <translation>找到的是 %1 的标记；而标定板是棋盘格</translation>
+    </message>
 </context>
 <context>
     <name>CoreWords</name>

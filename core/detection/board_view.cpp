@@ -316,6 +316,10 @@ Result<BoardView> view_checkerboard(const GrayImage& image, const Target& target
                                     const Camera& camera, const DetectionOptions& options,
                                     const RunContext& context) {
   auto found = find_checkerboard(image, target, context);
+  if (!found && found.error().kind == ErrorKind::kInput) {
+    if (const auto error = tags_instead_of_checkerboard(image, options, context)) return *error;
+    if (context.stopped()) return Error::cancelled();
+  }
   if (!found) return found.error();
   const auto pose = estimate_board_pose(found->corners, camera, options);
   if (!pose) return pose.error();

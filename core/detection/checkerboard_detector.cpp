@@ -69,9 +69,10 @@ double usual_reduction(const cv::Mat& image) {
 }
 
 // The largest checkerboard of any size; its longer side along the target's. Nothing for what has
-// not half of the target's corners along either side: tags and tiles look like small checkerboards.
+// far fewer corners than the target: tags and tiles look like small checkerboards.
 std::optional<cv::Size> other_size(const cv::Mat& image, const Target& target) {
   constexpr int kFewest = 3;  // OpenCV finds nothing smaller.
+  constexpr int kFewer = 2;   // The outer edges counted, too; squares for corners are one.
   cv::Mat small;
   const double reduction = usual_reduction(image);
   cv::resize(image, small, {}, 1.0 / reduction, 1.0 / reduction, cv::INTER_AREA);
@@ -83,7 +84,7 @@ std::optional<cv::Size> other_size(const cv::Mat& image, const Target& target) {
   cv::Size size = found.size();
   if ((size.width < size.height) != (target.corner_columns < target.corner_rows))
     std::swap(size.width, size.height);
-  if (2 * size.width < target.corner_columns || 2 * size.height < target.corner_rows)
+  if (size.width + kFewer < target.corner_columns || size.height + kFewer < target.corner_rows)
     return std::nullopt;
   return size;
 }

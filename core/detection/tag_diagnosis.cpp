@@ -124,6 +124,29 @@ std::optional<Error> other_family(const GrayImage& image, const Target& target,
 
 }  // namespace
 
+std::optional<Error> tags_instead_of_checkerboard(const GrayImage& image,
+                                                  const DetectionOptions& options,
+                                                  const RunContext& context) {
+  constexpr std::size_t kFewest = 3;  // Squares are read as a tag now and then.
+  for (const char* family : {"tag36h11", "tag36h10", "tag25h9", "tag16h5"}) {
+    for (const int bits : {1, 2}) {
+      if (context.stopped()) return std::nullopt;
+      if (ids_seen(image, family, bits, options.quad_decimate, context, kFewest).empty()) continue;
+      return Error::input(Message("tags of family %1 with a %2 found; the target is a checkerboard",
+                                  family, border_name(bits)),
+                          {},
+                          Message("describe the board with target_type: aprilgrid or apriltag"));
+    }
+  }
+  for (const std::string& dictionary : distinct_dictionaries()) {
+    if (context.stopped()) return std::nullopt;
+    if (ids_seen(image, dictionary, 1, options.quad_decimate, context, kFewest).empty()) continue;
+    return Error::input(Message("markers of %1 found; the target is a checkerboard", dictionary),
+                        {}, Message("describe the board with target_type: charuco"));
+  }
+  return std::nullopt;
+}
+
 std::size_t tags_in_mirror(const GrayImage& image, const Target& target,
                            const DetectionOptions& options, const RunContext& context) {
   const std::set<int> ids = ids_seen(mirrored(image), target.tag_family, target.tag_border_bits,

@@ -22,6 +22,12 @@ Error explain_missing_tags(const GrayImage& image, const Target& target, int fou
 std::size_t tags_in_mirror(const GrayImage& image, const Target& target,
                            const DetectionOptions& options, const RunContext& context);
 
+/// No checkerboard is found: the error that names the tags or markers which the image shows
+/// instead, if there are three or more of one kind.
+std::optional<Error> tags_instead_of_checkerboard(const GrayImage& image,
+                                                  const DetectionOptions& options,
+                                                  const RunContext& context);
+
 /// Where the target's family is one of few bits, which are misread into other tags now and then:
 /// the error that names another family of which the image shows more than `found` tags.
 std::optional<Error> other_tag_family(const GrayImage& image, const Target& target,

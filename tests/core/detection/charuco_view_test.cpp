@@ -8,6 +8,7 @@
 
 #include "base/statistics.h"
 #include "detection/board_view.h"
+#include "detection/tag_diagnosis.h"
 #include "support/ordinary_boards.h"
 #include "support/rendered_board.h"
 
@@ -123,6 +124,22 @@ TEST(CharucoView, SaysWhatTheImageShowsInstead) {
   const std::string mirrored = charuco_complaint(mirror, target);
   EXPECT_NE(mirrored.find("mirrored"), std::string::npos) << mirrored;
   EXPECT_NE(charuco_complaint(image, Target{}).find("target_type: charuco"), std::string::npos);
+}
+
+TEST(CheckerboardView, TagsInItsPlaceAreNamed) {
+  Target grid;
+  grid.type = TargetType::kAprilGrid;
+  grid.tag_columns = grid.tag_rows = 2;
+  const std::string tags = charuco_complaint(
+      picture(grid, testing::facing_pose(grid, 1.4, 0.1, 0.2, -0.2)), test::checkerboard_target());
+  EXPECT_NE(tags.find("tags of family tag36h11 with a 1-bit border found"), std::string::npos)
+      << tags;
+  // The search for a checkerboard itself takes long on one of other size.
+  const Target charuco = test::charuco_target();
+  const auto error = tags_instead_of_checkerboard(
+      picture(charuco, testing::facing_pose(charuco, 1.7, 0.1, 0.2, -0.2)), {}, {});
+  ASSERT_TRUE(error.has_value());
+  EXPECT_NE(error->text().find("markers of DICT_5X5"), std::string::npos) << error->text();
 }
 
 TEST(SingleTagView, PoseAgreesWithTheTruth) {
