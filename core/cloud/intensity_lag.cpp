@@ -42,24 +42,50 @@ std::vector<std::array<std::size_t, 2>> passed_twice(const Cloud& cloud) {
   return pairs;
 }
 
+// What the intensities of such a pair differ by at every shift, over what those of two pairs do: a
+// shift to places that are white all over makes neither alike.
+std::vector<double> differences(const Cloud& cloud,
+                                const std::vector<std::array<std::size_t, 2>>& pairs) {
+  std::vector<double> within(2 * kMostLag + 1, 0.0);
+  std::vector<double> between(within.size(), 0.0);
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    const auto from = [&](std::size_t k) { return cloud.intensity.data() + k - kMostLag; };
+    const float* first = from(pairs[p][0]);
+    const float* second = from(pairs[p][1]);
+    const float* other = from(pairs[(p + pairs.size() / 2) % pairs.size()][1]);
+    // Absolute ones: a few reflectors are as bright as everything else together.
+    for (std::size_t k = 0; k < within.size(); ++k) {
+      within[k] += static_cast<double>(std::abs(first[k] - second[k]));
+      between[k] += static_cast<double>(std::abs(first[k] - other[k]));
+    }
+  }
+  for (std::size_t k = 0; k < within.size(); ++k)
+    within[k] = between[k] > 0.0 ? within[k] / between[k] : 1.0;
+  return within;
+}
+
 }  // namespace
 
-int intensity_lag(const Cloud& cloud) {
-  if (!cloud.has_contrast() || cloud.intensity.size() != cloud.size()) return 0;
+std::vector<int> intensity_lags(const Cloud& cloud) {
+  if (!cloud.has_contrast() || cloud.intensity.size() != cloud.size()) return {};
   const auto pairs = passed_twice(cloud);
-  if (pairs.empty()) return 0;
-  // Absolute differences: a few reflectors are as bright as everything else together.
-  std::vector<double> unlike(2 * kMostLag + 1, 0.0);
-  for (const auto& [first, second] : pairs) {
-    const float* a = cloud.intensity.data() + first - kMostLag;
-    const float* b = cloud.intensity.data() + second - kMostLag;
-    for (std::size_t k = 0; k < unlike.size(); ++k)
-      unlike[k] += static_cast<double>(std::abs(a[k] - b[k]));
+  if (pairs.size() < 2) return {};
+  std::vector<double> unlike = differences(cloud, pairs);
+  constexpr std::size_t kMost = 4;
+  // Returns of one sweep across a print look alike at the next shifts, too.
+  constexpr std::int64_t kOneSweep = 50;
+  const double limit = 0.5 * unlike[kMostLag];
+  std::vector<int> lags;
+  while (lags.size() < kMost) {
+    const auto best = std::min_element(unlike.begin(), unlike.end());
+    if (!(*best < limit)) break;  // Nor where intensities are no numbers.
+    const std::int64_t lag = best - unlike.begin() - kMostLag;
+    lags.push_back(static_cast<int>(lag));
+    for (std::int64_t near = std::max(lag - kOneSweep, -kMostLag);
+         near <= std::min(lag + kOneSweep, kMostLag); ++near)
+      unlike[static_cast<std::size_t>(near + kMostLag)] = limit;
   }
-  const auto best = std::min_element(unlike.begin(), unlike.end());
-  // Also where an intensity is no number: nothing is less than that.
-  if (!(*best < unlike[kMostLag])) return 0;
-  return static_cast<int>(best - unlike.begin() - kMostLag);
+  return lags;
 }
 
 Cloud without_intensity_lag(Cloud cloud, int lag) {

@@ -37,11 +37,14 @@ CloudReading mirrored() {
           Eigen::Vector3f(1.0F, -1.0F, 1.0F)};
 }
 
-// Points and intensities that do not belong together, if there is a shift that the clouds suggest.
-std::optional<CloudReading> shifted_intensities(const std::vector<Cloud>& clouds) {
+// Points and intensities that do not belong together, by the shifts that the clouds suggest.
+std::vector<CloudReading> shifted_intensities(const std::vector<Cloud>& clouds) {
+  std::vector<int> lags;
   for (const Cloud& cloud : clouds) {
-    const int lag = intensity_lag(cloud);
-    if (lag == 0) continue;
+    if (lags.empty()) lags = intensity_lags(cloud);
+  }
+  std::vector<CloudReading> readings;
+  for (const int lag : lags) {
     const int count = std::abs(lag);
     CloudReading reading;
     reading.what =
@@ -49,9 +52,9 @@ std::optional<CloudReading> shifted_intensities(const std::vector<Cloud>& clouds
                 : Message("each intensity belongs to the point that stands %1 after it", count);
     reading.advice = Message("write every intensity with its own point");
     reading.intensity_lag = lag;
-    return reading;
+    readings.push_back(std::move(reading));
   }
-  return std::nullopt;
+  return readings;
 }
 
 double middle_distance_m(const BoardView& view, const Target& target) {
@@ -98,7 +101,7 @@ std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRe
     seen.push_back(s);
     clouds.push_back(std::move(*cloud));
   }
-  if (auto shifted = shifted_intensities(clouds)) readings.push_back(std::move(*shifted));
+  for (CloudReading& reading : shifted_intensities(clouds)) readings.push_back(std::move(reading));
   const PatternPyramid pyramid(dataset.target);
   RunContext quiet = context.silent();
   quiet.threads = 1;

@@ -196,11 +196,11 @@ void add_intensities(Kinds& all) {
     for (std::size_t k = c.intensity.size(); k > 1; --k)
       std::swap(c.intensity[k - 1], c.intensity[random.below(static_cast<std::uint32_t>(k))]);
   }));
-  all.push_back(clouds("intensities late by 300 returns", {"each intensity belongs to the point"},
-                       [](Cloud& c, Random&) {
-                         std::rotate(c.intensity.begin(), c.intensity.end() - 300,
-                                     c.intensity.end());
-                       }));
+  all.push_back(clouds(
+      "intensities late by 300 returns",
+      {"each intensity belongs to the point", "intensities do not follow"}, [](Cloud& c, Random&) {
+        std::rotate(c.intensity.begin(), c.intensity.end() - 300, c.intensity.end());
+      }));
   for (const int levels : {2, 3, 4, 8, 16}) {
     all.push_back(intensities(named("intensity in %d levels", levels), {}, [=](double v, Random&) {
       return std::floor(std::clamp(v, 0.0, 159.9) * levels / 160.0);
