@@ -58,6 +58,8 @@ double range_residual(const SceneGeometry& g, const BeamPoint& beam, const Eigen
 TEST_P(EveryEffect, RangeRowsAreTheMovementOfTheMeasuredRange) {
   const MeasurementTable& table = made_.table;
   EffectRows rows(table, columns_.list());
+  std::size_t told = 0;
+  ASSERT_FALSE(table.range.empty());
   for (const RangeRow& row : table.range) {
     const SceneGeometry g = geometry(row.beam.scene);
     const auto n = columns().parameters.size();
@@ -70,6 +72,7 @@ TEST_P(EveryEffect, RangeRowsAreTheMovementOfTheMeasuredRange) {
     const PrintSensitivity::Moves moves(g, rotation, row.beam.direction);
     rows.range(row, g.range_row(row.beam.direction), moves, nullptr,
                [&](const EffectColumns&, const EffectRows::RangeChange& by) {
+                 ++told;
                  for (std::size_t k = 0; k < n; ++k) {
                    // Steps of a micrometre at most, whatever the parameter's unit.
                    const double size = std::max(1.0, point[k].norm() + board[k].norm());
@@ -82,6 +85,7 @@ TEST_P(EveryEffect, RangeRowsAreTheMovementOfTheMeasuredRange) {
                  }
                });
   }
+  EXPECT_EQ(told, table.range.size());
 }
 
 // In the blur of an edge: how far the print moves under the beam, and how the beam and its power
@@ -89,7 +93,10 @@ TEST_P(EveryEffect, RangeRowsAreTheMovementOfTheMeasuredRange) {
 TEST_P(EveryEffect, ReadingsSeeThePrintMoveUnderTheBeam) {
   const MeasurementTable& table = made_.table;
   EffectRows rows(table, columns_.list());
+  std::size_t asked = 0;
+  std::size_t told = 0;
   for (std::size_t r = 0; r < table.boundary.size(); r += 7) {
+    ++asked;
     const BoundaryRow& row = table.boundary[r];
     const SceneGeometry g = geometry(row.beam.scene);
     const Eigen::Matrix3d rotation = g.lidar_from_board().rotation.toRotationMatrix();
@@ -117,6 +124,7 @@ TEST_P(EveryEffect, ReadingsSeeThePrintMoveUnderTheBeam) {
     const PrintSensitivity::Moves moves(g, rotation, row.beam.direction);
     rows.reading(
         reading, &row, moves, [&](const EffectColumns&, const PrintSensitivity::Change& by) {
+          ++told;
           for (std::size_t k = 0; k < n; ++k) {
             const Eigen::Vector3d move = point[k] + light[k] + rotation * board[k];
             const double size = std::max(1.0, move.norm());
@@ -133,7 +141,8 @@ TEST_P(EveryEffect, ReadingsSeeThePrintMoveUnderTheBeam) {
     ranged.beam = row.beam;
     rows.range(ranged, g.range_row(row.beam.direction), moves, &row,
                [&](const EffectColumns& c, const EffectRows::RangeChange& by) {
-                 if (c.print_contrast) return;
+                 EXPECT_FALSE(c.print_contrast);
+                 ++told;
                  for (std::size_t k = 0; k < n; ++k) {
                    const Eigen::Vector3d move = point[k] + rotation * board[k];
                    const double size = std::max(1.0, move.norm());
@@ -145,12 +154,17 @@ TEST_P(EveryEffect, ReadingsSeeThePrintMoveUnderTheBeam) {
                  }
                });
   }
+  EXPECT_GT(asked, 0U);
+  EXPECT_EQ(told, 2 * asked);
 }
 
 TEST_P(EveryEffect, CornerRowsAreTheMovementOfTheImage) {
   const MeasurementTable& table = made_.table;
   EffectRows rows(table, columns_.list());
+  std::size_t asked = 0;
+  std::size_t told = 0;
   for (std::size_t r = 0; r < table.corner.size(); r += 5) {
+    ++asked;
     const CornerRow& row = table.corner[r];
     const Rigid3& pose = made_.truth.camera_from_board[static_cast<std::size_t>(row.scene)];
     const auto predicted = predict(row, table.camera, pose);
@@ -166,6 +180,7 @@ TEST_P(EveryEffect, CornerRowsAreTheMovementOfTheImage) {
     };
     rows.corner(row, predicted->normalized, predicted->by_board_move,
                 [&](const EffectColumns&, std::span<const Eigen::Vector2d> by) {
+                  ++told;
                   for (std::size_t k = 0; k < n; ++k) {
                     const Eigen::Vector2d numeric =
                         (image(kStep * board[k]) - image(-kStep * board[k])) / (2.0 * kStep) +
@@ -174,6 +189,8 @@ TEST_P(EveryEffect, CornerRowsAreTheMovementOfTheImage) {
                   }
                 });
   }
+  EXPECT_GT(asked, 0U);
+  EXPECT_EQ(told, asked);
 }
 
 std::vector<std::string> all_ids() {
