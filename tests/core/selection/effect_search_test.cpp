@@ -483,11 +483,15 @@ TEST_F(SearchState, ALensFlawIsNoDistortion) {
   const auto made = test::synthetic_table({}, wrong);
   EffectSearch search(made.table, made.truth, options_, context_);
   search.rank();
+  const auto& all = search.candidates();
+  const auto distortion = std::find_if(all.begin(), all.end(), [&](const Candidate& c) {
+    return id_of(search, c) == "distortion_residual";
+  });
+  ASSERT_NE(distortion, all.end());
+  EXPECT_GT(distortion->total_gain(), 0.0);
+  EXPECT_LT(distortion->explained_share, options_.min_explained);
   const auto best = search.best();
-  if (best) {
-    EXPECT_NE(search.candidates()[*best].main_channel(), Channel::kCorner)
-        << id_of(search, search.candidates()[*best]);
-  }
+  EXPECT_TRUE(!best || all[*best].main_channel() != Channel::kCorner) << id_of(search, all[*best]);
 }
 
 }  // namespace
