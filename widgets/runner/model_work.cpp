@@ -119,6 +119,7 @@ void ModelWork::forget() {
   made_.clear();
   rankings_.clear();
   fresh_ = {};
+  base_ = nullptr;
   take_result(nullptr);
   update_steps();
   Q_EMIT changed();
@@ -148,13 +149,13 @@ void ModelWork::keep(const std::vector<ModelDecision>& decisions, const ModelSte
 void ModelWork::keep_ranking(const Key& key, ModelRanking ranking) {
   rankings_[key] = std::make_shared<const ModelRanking>(std::move(ranking));
   Q_EMIT ranking_changed();
-  // "good" does not stand beside "something is missing", and the total uncertainty of a model with
-  // effects is that with its budget.
+  // "good" does not stand beside "something is missing", what is handed on has the budget, and the
+  // total uncertainty of a model with effects is that with it.
   const auto shown = result_ ? result_ : source_;
   const auto missing = this->ranking();
   if (!missing) return;
   const bool judged = shown && missing->speaks_against_good() && shown->quality == Quality::kGood;
-  const bool budgeted = shown && !shown->model.empty() && shown->budget.empty();
+  const bool budgeted = shown && shown->budget.empty() && !missing->budget.empty();
   if (results_.running() || judged || budgeted) build_result();
 }
 
@@ -388,10 +389,9 @@ void ModelWork::build_result() {
   const auto found = discovery();
   const auto missing = ranking();
   const bool base = !found || found->model.empty();
-  if (!source_ || (base && !(missing && missing->speaks_against_good() &&
-                             source_->quality == Quality::kGood))) {
+  if (!source_ || (base && (!missing || base_))) {
     results_.abandon();
-    take_result(nullptr);
+    take_result(base_);
     Q_EMIT result_changed();
     return;
   }
@@ -403,14 +403,15 @@ void ModelWork::build_result() {
     Q_EMIT result_changed();
     return;
   }
-  results_.start(
-      [this, source = source_, found](const RunContext&, const Runner::Post&) -> Runner::Deliver {
-        auto made = std::make_shared<const CalibrationResult>(with_model(*source, *found));
-        return [this, made] {
-          take_result(made);
-          Q_EMIT result_changed();
-        };
-      });
+  results_.start([this, source = source_, found, base](const RunContext&,
+                                                       const Runner::Post&) -> Runner::Deliver {
+    auto made = std::make_shared<const CalibrationResult>(with_model(*source, *found));
+    return [this, made, base] {
+      if (base) base_ = made;
+      take_result(made);
+      Q_EMIT result_changed();
+    };
+  });
   // Until it is there, what is shown is of another place: pages say so. The calibration itself is
   // there at once.
   if (result_ && result_key_ == key) return;

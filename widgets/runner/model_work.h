@@ -51,7 +51,8 @@ class ModelWork : public QObject {
   /// others, or none.
   [[nodiscard]] bool behind() const;
 
-  /// The calibration with the effects shown in its model; null if there are none.
+  /// The calibration with the effects shown in its model, and once it is known what is missing with
+  /// its budget; null where that is the calibration as it was.
   [[nodiscard]] std::shared_ptr<const CalibrationResult> result() const { return result_; }
   /// The calibration that the steps were made from; null before the first fit.
   [[nodiscard]] std::shared_ptr<const CalibrationResult> source() const {
@@ -125,7 +126,8 @@ class ModelWork : public QObject {
   std::map<Key, std::shared_ptr<const ModelRanking>> rankings_;
   std::vector<ModelStepPtr> steps_;
   std::shared_ptr<const CalibrationResult> result_;
-  Key result_key_;  // The decisions whose effects it has.
+  std::shared_ptr<const CalibrationResult> base_;  // Without effects, with the budget.
+  Key result_key_;                                 // The decisions whose effects it has.
   // What a run made of its last step, for the place where it arrives.
   std::pair<Key, std::shared_ptr<const CalibrationResult>> fresh_;
   Place place_;
