@@ -1826,10 +1826,6 @@ were saved. Take them up again?</source>
         <translation>粗略外参（rig.yaml 或 --init）与场景矛盾，已不采用：%1</translation>
     </message>
     <message>
-        <source>the board is not found in any cloud, but it is if the clouds are %1</source>
-        <translation>在任何点云中都找不到标定板，但若点云为%1则能找到</translation>
-    </message>
-    <message>
         <source>Too small to matter: %1; it moves the extrinsic by %2 mm and %3 mrad at most.</source>
         <translation>太小，无关紧要：%1；至多使外参移动 %2 mm 和 %3 mrad。</translation>
     </message>
@@ -3862,10 +3858,6 @@ were saved. Take them up again?</source>
         <translation>中间</translation>
     </message>
     <message>
-        <source>mirrored (its axes make a left-handed frame)</source>
-        <translation>镜像的（其坐标轴构成左手坐标系）</translation>
-    </message>
-    <message>
         <source>multiply every term with a coefficient</source>
         <translation>请将每一项乘以一个系数</translation>
     </message>
@@ -4406,10 +4398,6 @@ were saved. Take them up again?</source>
         <translation>与 %1 的图像相同，只计一次</translation>
     </message>
     <message>
-        <source>the scenes do not agree, but %1 of them do if the clouds are mirrored (their axes make a left-handed frame)</source>
-        <translation>各场景不一致，但若点云为镜像（其坐标轴构成左手坐标系），则其中 %1 个一致</translation>
-    </message>
-    <message>
         <source>the sheet cannot be drawn: %1</source>
         <translation>无法绘制标定板图纸：%1</translation>
     </message>
@@ -4592,10 +4580,6 @@ were saved. Take them up again?</source>
     <message>
         <source>write a sum of terms with one coefficient each</source>
         <translation>请写成各项之和，每项一个系数</translation>
-    </message>
-    <message>
-        <source>write the clouds in metres, in a right-handed frame</source>
-        <translation>请以米为单位、在右手坐标系中写出点云</translation>
     </message>
     <message>
         <source>your own: formula:CHANNEL:EXPRESSION or curve:CHANNEL:COVARIATE</source>
@@ -5240,6 +5224,38 @@ were saved. Take them up again?</source>
     <message>
         <source>markers of %1 found; the target is a checkerboard</source>
         <translation>找到的是 %1 的标记；而标定板是棋盘格</translation>
+    </message>
+    <message>
+        <source>each intensity belongs to the point that stands %1 after it</source>
+        <translation>每个强度都属于其后第 %1 个点</translation>
+    </message>
+    <message>
+        <source>each intensity belongs to the point that stands %1 before it</source>
+        <translation>每个强度都属于其前第 %1 个点</translation>
+    </message>
+    <message>
+        <source>the board is not found in any cloud, but it is if %1</source>
+        <translation>在任何点云中都找不到标定板；但若%1，则能找到</translation>
+    </message>
+    <message>
+        <source>the clouds are %1</source>
+        <translation>点云是%1的</translation>
+    </message>
+    <message>
+        <source>the clouds are mirrored (their axes make a left-handed frame)</source>
+        <translation>点云是镜像的（其坐标轴构成左手系）</translation>
+    </message>
+    <message>
+        <source>the scenes do not agree, but %1 of them do if %2</source>
+        <translation>各场景不一致；但若%2，则其中 %1 个一致</translation>
+    </message>
+    <message>
+        <source>write every intensity with its own point</source>
+        <translation>请把每个强度写在它自己的点上</translation>
+    </message>
+    <message>
+        <source>write the clouds in metres</source>
+        <translation>请以米为单位写出点云</translation>
     </message>
 </context>
 <context>
