@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "base/text.h"
 #include "base/yaml_file.h"
@@ -37,7 +39,15 @@ void warn_all(const std::vector<Message>& warnings, const Session& session) {
   for (const Message& warning : warnings) session.warn(warning);
 }
 
-// A table of topics, as text of several lines.
+// All but the last line, which is the summary: what is printed at once is made one line of.
+std::string print_all_but_last(std::vector<std::string> lines, Session& session) {
+  std::string last = std::move(lines.back());
+  lines.pop_back();
+  for (const std::string& line : lines) session.print(line);
+  return last;
+}
+
+// A table of topics.
 Result<std::string> list(const Recording& recording, Session& session) {
   const auto complaints = check_recording(recording, session.context);
   if (!complaints) return complaints.error();
@@ -48,29 +58,29 @@ Result<std::string> list(const Recording& recording, Session& session) {
   };
   const bool empty = span.first_ns > span.last_ns;
   char line[160];
-  std::snprintf(line, sizeof line, "%s, %.1f s, %zu topics\n", recording.kind().c_str(),
+  std::snprintf(line, sizeof line, "%s, %.1f s, %zu topics", recording.kind().c_str(),
                 empty ? 0.0 : seconds(span.last_ns), recording.topics().size());
-  std::string out = line;
+  std::vector<std::string> out{line};
   std::snprintf(line, sizeof line, "%9s %9s %9s %9s  %-28s %s", "messages", "rate Hz", "first s",
                 "last s", "type", "topic");
-  out += line;
+  out.emplace_back(line);
   for (const Topic& topic : recording.topics()) {
     if (topic.count == 0) {
-      std::snprintf(line, sizeof line, "\n%9d %9s %9s %9s  ", 0, "-", "-", "-");
+      std::snprintf(line, sizeof line, "%9d %9s %9s %9s  ", 0, "-", "-", "-");
     } else {
-      std::snprintf(line, sizeof line, "\n%9llu %9.2f %9.2f %9.2f  ",
+      std::snprintf(line, sizeof line, "%9llu %9.2f %9.2f %9.2f  ",
                     static_cast<unsigned long long>(topic.count), topic.rate_hz(),
                     seconds(topic.first_ns), seconds(topic.last_ns));
     }
     std::string type = topic.type;
     type.resize(std::max<std::size_t>(type.size(), 28), ' ');
-    out += line + type + " " + topic.name;
-    if (!readable_encoding(topic.encoding)) out += " (" + topic.encoding + ")";
+    out.push_back(line + type + " " + topic.name);
+    if (!readable_encoding(topic.encoding)) out.back() += " (" + topic.encoding + ")";
     if (const std::string converter = converter_of(topic.type); !converter.empty()) {
-      out += " (raw: convert it with " + converter + ")";
+      out.back() += " (raw: convert it with " + converter + ")";
     }
   }
-  return out;
+  return print_all_but_last(std::move(out), session);
 }
 
 Result<std::vector<double>> scene_times(const std::string& text) {
@@ -162,13 +172,14 @@ Result<PairedFiles> pairs_of(const ImportArguments& options, const Session& sess
   return found;
 }
 
-std::string list_pairs(const PairedFiles& files) {
-  std::string out = std::to_string(files.pairs.size()) + " pairs, " + name_of(files.layout) +
-                    ", camera: " + (files.camera ? files.camera_from : std::string("none"));
+std::vector<std::string> list_pairs(const PairedFiles& files) {
+  std::vector<std::string> out{
+      std::to_string(files.pairs.size()) + " pairs, " + name_of(files.layout) +
+      ", camera: " + (files.camera ? files.camera_from : std::string("none"))};
   for (const FilePair& pair : files.pairs) {
     char apart[40] = "";
     if (pair.apart_s) std::snprintf(apart, sizeof apart, "  %+.1f ms", 1e3 * *pair.apart_s);
-    out += "\n" + pair.name + "  " + pair.image.string() + "  " + pair.cloud.string() + apart;
+    out.push_back(pair.name + "  " + pair.image.string() + "  " + pair.cloud.string() + apart);
   }
   return out;
 }
@@ -178,7 +189,7 @@ Result<std::string> import_files(const ImportArguments& options, Session& sessio
   if (!files) return files.error();
   if (options.list) {
     warn_all(files->warnings, session);
-    return list_pairs(*files);
+    return print_all_but_last(list_pairs(*files), session);
   }
   ImportOptions described = options.import;
   if (Status s = set_target(options, session, described); !s) return s.error();

@@ -379,8 +379,11 @@ std::optional<Error> explain_too_few_scenes(const CalibrationInput& in, Calibrat
         Message("images and clouds together contradict the intrinsics: %1", what), result.dataset,
         Message("check camera.yaml, or calibrate the camera again"));
   }
-  if (result.consensus.agreeing > 1 || !several_views(result)) return std::nullopt;
-  if (const auto error = wrong_clouds(in, run)) return error;
+  if (!several_views(result)) return std::nullopt;
+  if (result.consensus.agreeing < 2) {
+    if (const auto error = wrong_clouds(in, run)) return error;
+  }
+  // Two of three may agree on a board that is a little too small for the third.
   return wrong_size(in, run);
 }
 

@@ -148,11 +148,10 @@ void judge_print_size(const CalibrationResult& result, const QualityOptions& opt
             formatted(": %.5f", value * size.scale(axis));
   }
   // One number where both axes say the same.
-  const double apart = std::abs(size.scale.x() - size.scale.y());
   const Eigen::Array2d weight = size.sigma.array().square().inverse();
   const double mean = (weight * off).sum() / weight.sum();
   Message text;
-  if (apart < 3.0 * size.sigma.norm()) {
+  if (print_is_scaled(result, options)) {
     const std::string percent =
         formatted("%.2f ± %.2f", 100.0 * std::abs(mean), 100.0 / std::sqrt(weight.sum()));
     text = mean > 0 ? Message(
@@ -201,6 +200,12 @@ bool print_size_contradicts(const CalibrationResult& result, const QualityOption
   const Eigen::Array2d off = print_size_error(result).abs();
   return (off > 4.0 * result.forward->print_size.sigma.array() && off > options.scale_warning)
       .any();
+}
+
+bool print_is_scaled(const CalibrationResult& result, const QualityOptions& options) {
+  if (!print_size_contradicts(result, options) || !result.forward->uses_intensity) return false;
+  const PrintSize& size = result.forward->print_size;
+  return std::abs(size.scale.x() - size.scale.y()) < 3.0 * size.sigma.norm();
 }
 
 void judge_print(const CalibrationResult& result, const QualityOptions& options, Verdict& verdict) {

@@ -73,13 +73,16 @@ bool another_camera(const CalibrationResult& result) {
 }
 
 // Given intrinsics that corners and returns contradict: what is wrong, how large, what it does.
-void judge_intrinsics(const CalibrationResult& result, Verdict& verdict) {
+void judge_intrinsics(const CalibrationResult& result, const QualityOptions& options,
+                      Verdict& verdict) {
   if (!result.intrinsics.spacing.empty()) {
     verdict.doubtful(Message("the images contradict target.yaml: %1; measure the print",
                              result.intrinsics.spacing));
   }
   if (!result.intrinsics.contradiction) return;
   const IntrinsicsContradiction& found = *result.intrinsics.contradiction;
+  // Ranges at which the board seems to be of another size contradict a camera, too.
+  if (found.by_ranges && print_is_scaled(result, options)) return;
   if (found.turned_deg > 0) {
     verdict.doubtful(Message(
         "the images contradict the intrinsics: %1; turn them, and switch off what turns images, or "
@@ -502,7 +505,7 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   Verdict verdict(result);
   verdict.start();
   const ExtrinsicSolution& x = result.extrinsic;
-  judge_intrinsics(result, verdict);
+  judge_intrinsics(result, options, verdict);
   judge_shared_files(result, verdict);
   if (const Message unseen = diagnose_unseen_tags(result); !unseen.empty())
     verdict.doubtful(unseen);
@@ -565,6 +568,10 @@ void judge_quality(CalibrationResult& result, const QualityOptions& options) {
   if (x.used_scenes > 1) judge_unused(result, verdict);
   for (const SceneResult& scene : result.scenes) {
     for (const Message& w : scene.cloud_warnings) verdict.note(about_cloud(scene.name, w));
+    if (scene.used && scene.view) {
+      for (const Message& w : scene.view->warnings)
+        verdict.note(Message("scene %1: %2", scene.name, w));
+    }
     if (scene.used && !scene.objection.empty())
       verdict.doubtful(Message("scene %1 is used all the same, as you decided, though %2",
                                scene.name, scene.objection));

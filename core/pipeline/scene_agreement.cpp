@@ -307,8 +307,13 @@ bool judge_scans(const CalibrationResult& result, const QualityOptions& q, Verdi
   const double sigma_m = std::sqrt(solved.covariance.topLeftCorner<3, 3>().trace());
   const double sigma_rad = std::sqrt(solved.covariance.bottomRightCorner<3, 3>().trace());
   const std::vector<std::size_t> in_use = scenes_in_use(result.extrinsic);
+  // A print of another size leaves what angles or another origin would mend a little.
+  const bool scaled = print_is_scaled(result, q);
   bool told = false;
   for (const ScanFault& fault : result.forward->scan_faults) {
+    if (scaled &&
+        (fault.kind == ScanFault::Kind::kAngles || fault.kind == ScanFault::Kind::kOrigin))
+      continue;
     const Rigid3 moved = se3_exp(fault.move) * solved.transform;
     const double move_m = translation_distance_m(moved.inverse(), solved.transform.inverse());
     const double move_rad = rotation_distance_rad(moved, solved.transform);

@@ -52,6 +52,9 @@ void judge_print(const CalibrationResult& result, const QualityOptions& options,
 /// Whether the intensities show a print of another size than the target's, beyond what the model in
 /// force says of it: by four standard deviations and more than options.scale_warning.
 bool print_size_contradicts(const CalibrationResult& result, const QualityOptions& options);
+/// Whether it does so alike in both axes, as a print of another size does and angles of the LiDAR
+/// that are off do not. Camera and scans then contradict the target as well, for that reason.
+bool print_is_scaled(const CalibrationResult& result, const QualityOptions& options);
 
 // Scenes against each other, and what is within one of them.
 

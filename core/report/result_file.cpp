@@ -112,7 +112,6 @@ ordered_json scene_json(const SceneResult& scene, const SceneSolution* solution,
   return j;
 }
 
-// The beam as measured: total blur and the jitter in it, beam frame (horizontal, vertical).
 // How the print was found: by how much its place beats the best other one (log-likelihood), and its
 // size over the target's.
 ordered_json print_json(const ForwardSolution& forward) {

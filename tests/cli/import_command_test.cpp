@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // import, as a user runs it: what a recording holds, a dataset of it, and what can be wrong.
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -54,7 +56,9 @@ class ImportCommand : public ::testing::Test {
 TEST_F(ImportCommand, ListsTopics) {
   const Outcome outcome = run_lvcalib({"import", bag(), "--list"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("ROS 1 bag, 5.5 s, 3 topics"));
+  EXPECT_THAT(outcome.out, HasSubstr("ROS 1 bag, 5.5 s, 3 topics\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("topic\n"));
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 2 + 3);
   EXPECT_THAT(outcome.out, HasSubstr("sensor_msgs/PointCloud2      /points"));
   EXPECT_THAT(outcome.out, HasSubstr("10.00"));
   EXPECT_THAT(outcome.err, Not(HasSubstr("warning")));
@@ -78,6 +82,7 @@ TEST_F(ImportCommand, MakesADatasetOfImagesAndCloudsInFolders) {
   const Outcome listed = run_lvcalib({"import", files, "--list"});
   ASSERT_EQ(listed.status, 0) << listed.err;
   EXPECT_THAT(listed.out, HasSubstr("files of the same name"));
+  EXPECT_EQ(std::count(listed.out.begin(), listed.out.end(), '\n'), 1 + scenes);
   const Outcome outcome = import(files);
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr(std::to_string(scenes) + " scenes of"));

@@ -13,6 +13,7 @@
 namespace lvcalib {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 // A result of two flawless scenes.
@@ -221,6 +222,48 @@ TEST(JudgeQuality, AScaleWithinItsUncertaintyIsNoDifference) {
   }
   judge_quality(result, {});
   EXPECT_EQ(result.quality, Quality::kGood) << all_warnings(result);
+}
+
+// A print of another size, and what it makes of the angles, the beams' origin and the camera.
+CalibrationResult with_print_of(double wide, double high) {
+  CalibrationResult result = flawless();
+  ForwardSolution& forward = result.forward.emplace();
+  forward.converged = true;
+  forward.uses_intensity = true;
+  forward.lattice_margin = 1000.0;
+  forward.print_size = {true, {wide, high}, {0.0002, 0.0002}};
+  for (const auto kind : {ScanFault::Kind::kAngles, ScanFault::Kind::kOrigin}) {
+    ScanFault& fault = forward.scan_faults.emplace_back();
+    fault.kind = kind;
+    fault.chi_square = 100.0;
+    fault.gate = 20.0;
+    fault.move(0) = 0.01;
+  }
+  IntrinsicsContradiction& camera = result.intrinsics.contradiction.emplace();
+  camera.by_ranges = true;
+  camera.what = Message("focal length off");
+  return result;
+}
+
+TEST(JudgeQuality, APrintOfAnotherSizeIsToldAlone) {
+  CalibrationResult scaled = with_print_of(1.005, 1.005);
+  judge_quality(scaled, {});
+  EXPECT_EQ(scaled.quality, Quality::kDoubtful);
+  ASSERT_EQ(scaled.quality_reasons.size(), 1U) << all_warnings(scaled);
+  EXPECT_THAT(scaled.quality_reasons[0].text(), HasSubstr("the print 0.50 ± 0.01 % larger"));
+  // Wider but not higher: angles may be why.
+  CalibrationResult wider = with_print_of(1.005, 1.0);
+  judge_quality(wider, {});
+  EXPECT_THAT(all_warnings(wider), AllOf(HasSubstr("LiDAR's angles"), HasSubstr("beams start"),
+                                         HasSubstr("focal length off")));
+}
+
+TEST(JudgeQuality, TellsWhatAnImageLeavesOut) {
+  CalibrationResult result = flawless();
+  result.scenes[1].view.emplace().warnings.push_back(Message("tags were dropped"));
+  judge_quality(result, {});
+  EXPECT_EQ(result.quality, Quality::kGood);
+  EXPECT_THAT(all_warnings(result), HasSubstr("scene B: tags were dropped"));
 }
 
 TEST(MeasuredScaleTest, IsTheWeightedMeanOfTheUsedScenes) {
