@@ -19,6 +19,8 @@ namespace {
 
 constexpr double kTells = 3.0;       // σ by which a difference must stand out
 constexpr double kWorthwhile = 1.2;  // a scene that gains less is not worth the way
+// With nine such scenes an effect would be seen; more nobody takes for one question.
+constexpr double kHelps = kTells / 3.0;
 
 using Block = InformationBlock;
 
@@ -128,13 +130,14 @@ Message tell_apart(const Knowledge& known, const ScenesTaken& taken, const std::
   if (after < kTells || after < kWorthwhile * before) {
     return Message(
         "No further scene of this board will tell %1 from %2 (at best %3 σ); measure instead: %4",
-        a, b, formatted("%.1f", after),
+        effect_named(a), effect_named(b), formatted("%.1f", after),
         Message::listed(known.involved.at(b).columns.effect->info().discriminating_pose));
   }
   return Message(
       "To tell %1 from %2, take a scene with the board %3; the difference would stand %4 σ (now "
       "%5 σ)",
-      a, b, known.poses[pose].description(), formatted("%.1f", after), formatted("%.1f", before));
+      effect_named(a), effect_named(b), known.poses[pose].description(), formatted("%.1f", after),
+      formatted("%.1f", before));
 }
 
 Message make_visible(const Knowledge& known, const std::string& id, const UnseenEffect& unseen) {
@@ -157,7 +160,7 @@ Message make_visible(const Knowledge& known, const std::string& id, const Unseen
   const Message what = Message("%1 (it could move the extrinsic by %2 mm and %3 mrad)",
                                effect_named(id), formatted("%.1f", unseen.extrinsic_move_mm),
                                formatted("%.2f", unseen.extrinsic_move_mrad));
-  if (after < kWorthwhile * before) {
+  if (after < kHelps || after < kWorthwhile * before) {
     return Message("No further scene of this board will show %1; measure instead: %2", what,
                    Message::listed(effect.columns.effect->info().discriminating_pose));
   }
