@@ -341,10 +341,14 @@ void photograph_model(widgets::MainWindow& window, Photographer& camera, const Q
     camera.take(name("unseen"));
     right->setCurrentIndex(0);
   }
+  auto* along = test::find<QComboBox>(window, "covariate");
+  const QVariant watched = along->currentData();
   auto* effect = test::find<QComboBox>(window, "what_if_effect");
   effect->setCurrentIndex(effect->findData(QStringLiteral("range_cyclic")));
   camera.take(name("what-if"));
   effect->setCurrentIndex(0);
+  // What the addition will make fall.
+  along->setCurrentIndex(along->findData(watched));
   test::find<QPushButton>(window, "add_effect")->click();
   if (auto* dialog = test::find<QDialog>(window, "add_effect_dialog")) {
     camera.take(name("add"), dialog);
