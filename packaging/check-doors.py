@@ -45,7 +45,7 @@ DOORS["report"] = sorted(set(DOORS) - {"simulation"})
 # Which folders of widgets/ a folder may include, besides itself.
 WIDGET_DOORS = {
     "words": [],
-    "style": [],
+    "style": ["words"],
     "runner": ["words"],
     "models": ["words", "style", "runner"],
     "views": ["words", "style"],

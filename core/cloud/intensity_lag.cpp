@@ -71,6 +71,7 @@ std::vector<int> intensity_lags(const Cloud& cloud) {
   const auto pairs = passed_twice(cloud);
   if (pairs.size() < 2) return {};
   std::vector<double> unlike = differences(cloud, pairs);
+  // The right one, and those half a petal of a rosette before and after it, with one to spare.
   constexpr std::size_t kMost = 4;
   // Returns of one sweep across a print look alike at the next shifts, too.
   constexpr std::int64_t kOneSweep = 50;

@@ -23,7 +23,8 @@ SceneHypotheses seen_by_camera(const BoardView& view, const Target& target, doub
 
 /// After the board was not found in any cloud: whether it is found, at places of two scenes that
 /// agree if there are two, once the clouds are taken for ones in millimetres, centimetres, feet or
-/// inches, or for mirrored ones. The error that says so.
+/// inches, for mirrored ones, or for ones whose intensities belong to other points. The error that
+/// says so.
 std::optional<Error> diagnose_clouds(const Dataset& dataset, const CalibrationRequest& request,
                                      const CalibrationResult& result, const RunContext& context);
 

@@ -79,13 +79,8 @@ QString list(const std::vector<Message>& lines) {
 }
 
 QString quality_line(const CalibrationResult& result, const Standing& standing) {
-  const QPalette palette = QGuiApplication::palette();
-  const StateColors colors = state_colors(palette);
   const ToldQuality told = told_quality(result, standing);
-  const QColor color = told.open                          ? palette.color(QPalette::Text)
-                       : told.quality == Quality::kGood   ? colors.good
-                       : told.quality == Quality::kFailed ? colors.bad
-                                                          : colors.doubtful;
+  const QColor color = color_of(told, QGuiApplication::palette());
   QString line =
       QStringLiteral("<h2 style='color:%1'>%2</h2>")
           .arg(color.name(), ResultsDialog::tr("Quality: %1").arg(told.words).toHtmlEscaped());

@@ -21,12 +21,8 @@ QString number(double value, int decimals) {
 
 QString quality_line(const CalibrationResult& result, const Standing& standing,
                      const QPalette& palette) {
-  const StateColors colors = state_colors(palette);
   const ToldQuality told = told_quality(result, standing);
-  const QColor color = told.open                          ? palette.color(QPalette::Text)
-                       : told.quality == Quality::kGood   ? colors.good
-                       : told.quality == Quality::kFailed ? colors.bad
-                                                          : colors.doubtful;
+  const QColor color = color_of(told, palette);
   QString line = QString("<p><b>%1 <span style='color:%2'>%3</span></b>")
                      .arg(tr("Quality:"), color.name(), told.words.toHtmlEscaped());
   if (!result.quality_reason.empty()) {

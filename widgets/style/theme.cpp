@@ -7,6 +7,8 @@
 #include <QStyleFactory>
 #include <QStyleOption>
 
+#include "words/quality_text.h"
+
 namespace lvcalib::widgets {
 namespace {
 
@@ -136,6 +138,13 @@ StateColors state_colors(const QPalette& palette) {
   }
   return {QColor(0x2b, 0x86, 0x3d), QColor(0xa8, 0x6a, 0x00), QColor(0xbf, 0x2f, 0x2a),
           QColor(0x70, 0x77, 0x7f), QColor(0x1f, 0x6f, 0xb5)};
+}
+
+QColor color_of(const ToldQuality& told, const QPalette& palette) {
+  const StateColors colors = state_colors(palette);
+  if (told.open) return palette.color(QPalette::Text);
+  if (told.quality == Quality::kGood) return colors.good;
+  return told.quality == Quality::kFailed ? colors.bad : colors.doubtful;
 }
 
 }  // namespace lvcalib::widgets

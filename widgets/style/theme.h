@@ -9,6 +9,8 @@ class QApplication;
 
 namespace lvcalib::widgets {
 
+struct ToldQuality;
+
 /// Which palette the window uses.
 enum class Theme { kSystem, kLight, kDark };
 
@@ -33,5 +35,7 @@ struct StateColors {
   QColor accent;    ///< Selected, linked.
 };
 StateColors state_colors(const QPalette& palette);
+/// Of a result's quality; that of text as long as it is open.
+QColor color_of(const ToldQuality& told, const QPalette& palette);
 
 }  // namespace lvcalib::widgets
